@@ -81,6 +81,7 @@ class FreeLaw:
       contact: factors on the torque of the nominal tissue over what a contact has been through.
       grip: of the chuck, or of the tissue's holder, which gives way.
       throughout, sections, at_tip, at_entry: additional laws (models.tissue).
+      from_the_start: whether angles of the laws throughout are from where a trial starts.
       in_sheath: additional laws of the free shaft (models.drive).
 
     Raises:
@@ -98,6 +99,7 @@ class FreeLaw:
     contact: ContactCurve | None = None
     grip: FreeGrip = FreeGrip()  # noqa: RUF009 - frozen
     throughout: tuple[Interface, ...] = ()
+    from_the_start: bool = False
     sections: tuple[Section, ...] = ()
     at_tip: tuple[Interface, ...] = ()
     at_entry: tuple[Interface, ...] = ()
@@ -133,6 +135,7 @@ class FreeLaw:
             grip=self.grip.times(strength),
             contact=_raised(self.contact, strength) if self.contact else None,
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
+            from_the_start=self.from_the_start,
             sections=tuple(
                 own.but(interface=_stronger(own.interface, strength)) for own in self.sections
             ),
@@ -153,10 +156,14 @@ class FreeLaw:
         """The parts of the law that apply to one trial."""
         return self._with(tuple(c for c in self.curves if c.trial in ("", trial)))
 
-    def begun_at(self, depth_mm: float) -> "FreeLaw":
-        """The law in a trial that began at a depth."""
+    def begun_at(self, depth_mm: float, angle_deg: float) -> "FreeLaw":
+        """The law in a trial that began at a depth and an angle of the drive shaft."""
         along = self.along_depth.in_trial(depth_mm)
-        return self if along is self.along_depth else replace(self, along_depth=along)
+        begun = self if along is self.along_depth else replace(self, along_depth=along)
+        if not self.from_the_start:
+            return begun
+        laws = tuple(_turned(law, angle_deg) for law in self.throughout)
+        return replace(begun, throughout=laws, from_the_start=False)
 
     def without_sensors(self) -> "FreeLaw":
         """The parts of the law that act on the needle, without those of the sensors."""
@@ -266,6 +273,13 @@ def _stronger(law: Interface, strength: float) -> Interface:
         changes["stiffness_n_mm_per_rad_per_mm"] = strength * law.stiffness_n_mm_per_rad_per_mm
     stronger: Interface = law.but(**changes)
     return stronger
+
+
+def _turned(law: Interface, angle_deg: float) -> Interface:
+    """A law of the angle from another one, deg."""
+    phase_deg = law.orientation_phase_deg + law.orientation_cycles * angle_deg
+    turned: Interface = law.but(orientation_phase_deg=phase_deg)
+    return turned
 
 
 def _raised(curve: ContactCurve, strength: float) -> ContactCurve:

@@ -252,7 +252,8 @@ class RigParameters:
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
         """The MuJoCo needle for a schedule, as returned by `driven`."""
         shaft = max(schedule.longest_mm, 1.0)
-        begun = self.free.begun_at(float(schedule.inserted_mm[0])) if self.free else None
+        at_start = float(schedule.inserted_mm[0]), float(schedule.drive[0])
+        begun = self.free.begun_at(*at_start) if self.free else None
         needle, tissue, drive = _parts(self if begun is self.free else replace(self, free=begun), rig)
         standing = schedule.mesh is Mesh.EULERIAN
         inserted = schedule.inserted_mm[0] if standing else shaft - schedule.free_mm[0]
