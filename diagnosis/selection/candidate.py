@@ -28,6 +28,7 @@ from diagnosis.fitting.nuisance import late_starts_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.swinging import swinging_where_coloured
 from diagnosis.selection.scoring.complexity import complexity_penalty
+from diagnosis.selection.scoring.own_values import gain_of_own_values
 from diagnosis.selection.scoring.scatter import gain_of_exact_constants, open_scatter, scatter_of
 from diagnosis.selection.scoring.unresolved import unresolved_cost
 from sim.needles.run import SimulationFailed
@@ -40,7 +41,8 @@ class Candidate:
     """A fitted explanation.
 
     Attributes:
-      score: cost plus complexity penalty, less what exact constants gain; the least is best.
+      score: cost plus complexity penalty, less what exact constants gain, and what clocks do that run
+        off by another rate in each trial; the least is best.
       floor: how far its residual is above the noise.
       held_out: residuals / sigma of each trial, predicted from the others; None: not looked at.
       held_out_floor: how far these are above the noise.
@@ -222,5 +224,5 @@ class Candidate:
 
 def candidate(fit: Fit) -> Candidate:
     """A fit with its score and noise floor."""
-    score = fit.cost + complexity_penalty(fit) - gain_of_exact_constants(fit)
+    score = fit.cost + complexity_penalty(fit) - gain_of_exact_constants(fit) - gain_of_own_values(fit)
     return Candidate(fit=fit, score=score, floor=floor_of(fit.by_trial))
