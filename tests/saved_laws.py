@@ -50,7 +50,7 @@ EVERYTHING = replace(
         damping_time_s=0.1,
     ),
     grip=FreeGrip(torque_n_mm=0.5, play_deg=3.0, stiffness_n_mm_per_rad=1.0),
-    from_the_start=True,
+    from_start=(Interface(orientation_n_mm_per_mm=0.01, orientation_cycles=0.1),),
     at_tip=(Interface(viscous_n_mm_s_per_mm=0.1),),
 )
 """A law that uses every field."""

@@ -56,7 +56,7 @@ _TORQUES = (
     "orientation_viscous_n_mm_s_per_mm",
     "orientation_dry_n_mm_per_mm",
 )
-_ADDED = ("curves", "throughout", "sections", "at_tip", "at_entry", "in_sheath")
+_ADDED = ("curves", "throughout", "from_start", "sections", "at_tip", "at_entry", "in_sheath")
 _RECORDS = ("shaft", "grip")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
 _OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_GAIN)
@@ -81,7 +81,7 @@ class FreeLaw:
       contact: factors on the torque of the nominal tissue over what a contact has been through.
       grip: of the chuck, or of the tissue's holder, which gives way.
       throughout, sections, at_tip, at_entry: additional laws (models.tissue).
-      from_the_start: whether angles of the laws throughout are from where a trial starts.
+      from_start: additional laws like those throughout, whose angle is from where a trial starts.
       in_sheath: additional laws of the free shaft (models.drive).
 
     Raises:
@@ -99,7 +99,7 @@ class FreeLaw:
     contact: ContactCurve | None = None
     grip: FreeGrip = FreeGrip()  # noqa: RUF009 - frozen
     throughout: tuple[Interface, ...] = ()
-    from_the_start: bool = False
+    from_start: tuple[Interface, ...] = ()
     sections: tuple[Section, ...] = ()
     at_tip: tuple[Interface, ...] = ()
     at_entry: tuple[Interface, ...] = ()
@@ -115,7 +115,8 @@ class FreeLaw:
     @property
     def more_rows(self) -> int:
         """Number of additional rows in the law table."""
-        laws = (self.throughout, self.sections, self.at_tip, self.at_entry, self.in_sheath)
+        along = (self.throughout, self.from_start, self.sections)
+        laws = (*along, self.at_tip, self.at_entry, self.in_sheath)
         return sum(map(len, laws)) + self.along_depth.parts
 
     def times(self, strength: float) -> "FreeLaw":
@@ -135,7 +136,7 @@ class FreeLaw:
             grip=self.grip.times(strength),
             contact=_raised(self.contact, strength) if self.contact else None,
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
-            from_the_start=self.from_the_start,
+            from_start=tuple(_stronger(law, strength) for law in self.from_start),
             sections=tuple(
                 own.but(interface=_stronger(own.interface, strength)) for own in self.sections
             ),
@@ -160,10 +161,10 @@ class FreeLaw:
         """The law in a trial that began at a depth and an angle of the drive shaft."""
         along = self.along_depth.in_trial(depth_mm)
         begun = self if along is self.along_depth else replace(self, along_depth=along)
-        if not self.from_the_start:
+        if not self.from_start:
             return begun
-        laws = tuple(_turned(law, angle_deg) for law in self.throughout)
-        return replace(begun, throughout=laws, from_the_start=False)
+        turned = (_turned(law, angle_deg) for law in self.from_start)
+        return replace(begun, throughout=(*self.throughout, *turned), from_start=())
 
     def without_sensors(self) -> "FreeLaw":
         """The parts of the law that act on the needle, without those of the sensors."""

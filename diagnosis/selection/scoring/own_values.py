@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from diagnosis.effects import FITTED
+from diagnosis.fitting.bounded_least_squares import predicted_reduction
 from diagnosis.fitting.fit import Fit
 
 Array = NDArray[np.float64]
@@ -25,10 +26,10 @@ def gain_of_own_values(fit: Fit) -> float:
     split = _split_by_trial(fit)
     if not split.shape[1]:
         return 0.0
-    slopes, residual = fit.slopes, fit.residual
-    saved = _left(slopes, residual) - _left(np.hstack([slopes, split]), residual)
-    cost = split.shape[1] * math.log(1.0 + fit.samples)
-    return float(max(saved - cost, 0.0))
+    more = np.hstack([fit.slopes, split])
+    saved = _promised(more, fit.residual) - _promised(fit.slopes, fit.residual)
+    cost = int(split.shape[1]) * math.log(1.0 + fit.samples)
+    return max(saved - cost, 0.0)
 
 
 def _split_by_trial(fit: Fit) -> Array:
@@ -42,8 +43,7 @@ def _split_by_trial(fit: Fit) -> Array:
     return np.vstack([by_trial, np.zeros((rows - by_trial.shape[0], by_trial.shape[1]))])
 
 
-def _left(slopes: Array, residual: Array) -> float:
-    """Sum of squares that the best step leaves."""
-    step = np.linalg.lstsq(slopes, -residual)[0]
-    left = residual + slopes @ step
-    return float(np.sum(left**2))
+def _promised(slopes: Array, residual: Array) -> float:
+    """What a step without bounds takes off."""
+    free = np.full(slopes.shape[1], np.inf)
+    return predicted_reduction(slopes, residual, -free, free)

@@ -74,4 +74,4 @@ def _apply(
 ) -> RigParameters:
     wave = Interface(orientation_n_mm_per_mm=stiffness / cycles, orientation_cycles=cycles, varies=True)
     changes = curve.acting_on(ActsOn.TISSUE, variable, c)
-    return replace(rig, free=FreeLaw(throughout=(wave,), from_the_start=True, curves=(changes,)))
+    return replace(rig, free=FreeLaw(from_start=(wave,), curves=(changes,)))

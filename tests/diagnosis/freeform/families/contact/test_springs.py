@@ -15,8 +15,10 @@ from free_forms import covered
 
 from diagnosis.freeform.families.contact.springs import families
 from diagnosis.log.trial import TORQUE
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL
+from models.tissue import Interface
 
 ANGLE, STIFFNESS, TURN_DEG = turns(6.0), 0.01, 60.0
 FREE_MM, INSERTED_MM = 60.0, 90.0
@@ -60,3 +62,14 @@ def test_a_spring_that_is_softer_in_the_end_has_the_torque_of_that():
     softer = torque_n_mm(c=(0.0, -1.0, *(0.0,) * (SIZE - 2)))
     assert softer == pytest.approx(on_elastic_bed_n_mm(factors[-1]), rel=0.01)
     assert factors[-1] == pytest.approx(STIFFNESS * math.exp(-1.0))
+
+
+def test_a_law_of_the_angle_beside_it_is_not_from_the_start():
+    """A bent shaft prefers an angle of its own, wherever a trial starts."""
+    spring = SPRING.effect.apply(NOMINAL, STIFFNESS, *(0.0,) * SIZE).free
+    bent = Interface(orientation_n_mm_per_mm=0.001, orientation_phase_deg=30.0)
+    begun = spring.beside(FreeLaw(throughout=(bent,))).begun_at(0.0, 200.0)
+    one, other = begun.throughout
+    assert one == bent
+    assert other.orientation_phase_deg == pytest.approx(200.0 * other.orientation_cycles)
+    assert begun.begun_at(0.0, 90.0) == begun
