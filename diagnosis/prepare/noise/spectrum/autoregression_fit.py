@@ -51,6 +51,7 @@ def autoregression(parts: Sequence[tuple[Array, Array]]) -> tuple[float, Autoreg
     Args:
       parts: time, s, and residual of each trial, (N,) each; NaN where nothing was read.
     """
+    parts = [part for part in parts if np.isfinite(part[1]).any()]
     step_s = step_of(parts)
     if np.isnan(step_s) or not all(sampled_at(time_s, step_s) for time_s, _ in parts):
         return None

@@ -68,3 +68,10 @@ def test_too_little_or_uneven_steps_tell_none():
     assert autoregression(trials(swings, count=1, size=600)) is None
     one, other = trials(swings, count=2)
     assert autoregression([one, (2.0 * other[0], other[1])]) is None
+
+
+def test_a_trial_in_which_nothing_was_read_tells_nothing():
+    parts = trials(swings)
+    time_s, values = parts[0]
+    unread = (time_s, np.full_like(values, np.nan))
+    assert autoregression([unread, *parts]) == autoregression(parts)

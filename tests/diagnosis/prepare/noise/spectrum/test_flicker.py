@@ -11,11 +11,11 @@ RATE_HZ, SECONDS = 100, 40.0
 SIZE = round(SECONDS * RATE_HZ)
 
 
-def one_over_f(rng):
-    """Of variance 1, with the power of each frequency as 1 / f from 1 / SECONDS on."""
+def one_over_f(rng, exponent=1.0):
+    """Of variance 1, with the power of each frequency as 1 / f^exponent from 1 / SECONDS on."""
     waves = np.fft.rfft(rng.normal(size=SIZE))
     waves[0] = 0.0
-    waves[1:] /= np.sqrt(np.arange(1, waves.size))
+    waves[1:] /= np.arange(1, waves.size) ** (exponent / 2)
     values = np.fft.irfft(waves, SIZE)
     return values / values.std()
 
@@ -64,6 +64,20 @@ def test_it_leaves_white_noise_with_means_over_seconds_that_are_no_larger():
     assert np.std(np.concatenate(white)) == pytest.approx(1.0, abs=0.05)
     # 80 blocks: the root mean square of their means scatters by 8 %.
     assert np.sqrt(200 * np.mean(blocks**2)) < 1.3
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_noise_that_is_somewhat_steeper_leaves_white_noise_too(seed):
+    """1 / f alone, fitted above 2 Hz, leaves means over seconds that are 1.4 times as large."""
+    rng = np.random.default_rng(seed)
+    time_s = np.arange(SIZE) / RATE_HZ
+    parts = [(time_s, one_over_f(rng, 1.2)) for _ in range(6)]
+    sigma, colour = flicker_noise(parts).noise
+    white = np.array([colour.whitened(time_s, values / sigma) for time_s, values in parts])
+    blocks = white.reshape(-1, 200).mean(axis=1)
+    assert np.std(white) == pytest.approx(1.0, abs=0.05)
+    # 120 blocks: the root mean square of their means scatters by 6 %.
+    assert np.sqrt(200 * np.mean(blocks**2)) < 1.2
 
 
 def test_white_noise_and_noise_that_is_forgotten_at_once_are_not_like_that():
