@@ -80,6 +80,7 @@ STAGES = {
     "starts of trials": _whole("fitting what wound trials up before they began", 1.0, 0, 0),
     "clocks before trials": _whole("fitting clocks that ran before the trials", 1.0, 0, 0),
     "noise that grows": _whole("fitting with noise that grows with rate or torque", 1.0, 0, 0),
+    "noise of each trial": _whole("fitting with noise that differs from trial to trial", 1.0, 0, 0),
     "outliers beside the best": _whole("fitting without outliers", 1.0, 0, 0),
     "weakly coloured noise": _whole("fitting with noise of another colour", 1.0, 0, 0),
     "flicker noise": _whole("fitting with 1/f noise", 1.0, 0, 0),

@@ -90,6 +90,13 @@ times that, for noise of heavy tails); noise at the largest rate / that at rest,
 GROWING_WHITE = 0.15
 """By which the noise from differences of orders 1 and 4 may differ, where it is large: 3.5 times the
 scatter of medians of 600 differences, 3 % and 2.5 %, rounded up for fewer (derived)."""
+TRIALS_NOISE_BY_CHANCE, TRIALS_NOISE_LEAST = 1e-6, 1.15
+"""Noise that differs from trial to trial: by chance as much once in so many sensors, of normal noise (of
+heavy tails it scatters by a fifth more); largest / smallest, at least, from which a trial counts by a
+third more or less than another. Choices."""
+TRIALS_NOISE_WHITE = 0.15
+"""By which the noise of a trial from differences of orders 2 and 4 may differ: 3.5 times their scatter
+of 200 readings, 4 % (derived)."""
 PULSES_SHARE = 0.5
 """Share of the outliers of the base that others answer to, from which they are motion; by chance
 those of two sensors meet in some hundredths of them."""

@@ -99,7 +99,7 @@ def _of_exact_predictions(
     if not any(trial.weights for trial in problem.log.trials):
         return found
     for sensor, parts in found.items():
-        kept = [_counts_in_full(t, sensor) for t in problem.log.trials if t.has(sensor)]
+        kept = [_counts_in_full(t, sensor, problem.noise) for t in problem.log.trials if t.has(sensor)]
         if sum(own.sum() for own in kept) >= NOISE_LEAST_ROWS:
             found[sensor] = [
                 (t, np.where(own, r, np.nan)) for (t, r), own in zip(parts, kept, strict=True)
@@ -107,9 +107,9 @@ def _of_exact_predictions(
     return found
 
 
-def _counts_in_full(trial: PreparedTrial, sensor: str) -> NDArray[np.bool_]:
-    """Which readings of a sensor have their weight, (n,)."""
-    weights = np.broadcast_to(trial.weights.get(sensor, 1.0), trial.time_s.shape)
+def _counts_in_full(trial: PreparedTrial, sensor: str, noise: Noise) -> NDArray[np.bool_]:
+    """Which readings of a sensor have the weight of their own noise, (n,)."""
+    weights = trial.weights.get(sensor, 1.0) * noise.sizes(sensor, trial)
     return np.asarray(weights[np.isfinite(trial.readings[sensor])] > NOISE_LEAST_WEIGHT)
 
 

@@ -8,9 +8,9 @@ no pair does, every effect beside each of the leading pairs is. Where two or thr
 it, another one is tried in place of each of them.
 What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, elastic
 tissue may go along with a sliding shaft, clocks may have run before the trials, noise may grow with rate
-or torque, outliers may be left, noise may be weakly coloured or of 1/f, the torque may drift, readings
-may jump, and those of the tip may drift. What is far above the noise all the same is compared with
-plainer sets that leave hardly more.
+or torque or differ from trial to trial, outliers may be left, noise may be weakly coloured or of 1/f,
+the torque may drift, readings may jump, and those of the tip may drift. What is far above the noise all
+the same is compared with plainer sets that leave hardly more.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
 dropped.
@@ -47,6 +47,7 @@ from diagnosis.selection.stages.sensors.imperfections import (
     imperfections_beside_three,
     imperfections_of_sensors,
 )
+from diagnosis.selection.stages.sensors.noise_by_trial import noise_of_each_trial
 from diagnosis.selection.stages.sensors.outliers_left import (
     outliers_and_more,
     outliers_beside_the_best,
@@ -90,15 +91,17 @@ STAGES: tuple[Stage, ...] = (
     starts_of_trials,
     clocks_before_trials,
     noise_that_grows,
+    noise_of_each_trial,
     outliers_beside_the_best,
     weakly_coloured_noise,
     flicker_noise,
     drift_of_the_torque_sensor,
-    jumps_and_more((drift_of_the_torque_sensor,)),
+    jumps_and_more((flicker_noise, drift_of_the_torque_sensor)),
     drift_of_the_tip_sensor,
     outliers_and_more(
         (
             weakly_coloured_noise,
+            flicker_noise,
             drift_of_the_torque_sensor,
             jumps_of_readings,
             drift_of_the_tip_sensor,

@@ -27,9 +27,10 @@ from diagnosis.log.trial import BASE, SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 from diagnosis.prepare.noise.colour import Colour
 from diagnosis.prepare.noise.drift import AllowedDrift, Drift
-from diagnosis.prepare.noise.growing_noise import GrowingNoise
 from diagnosis.prepare.noise.spectrum.flicker import flicker_noise
 from diagnosis.prepare.noise.spectrum.time_or_rows import colour_in_time_or_rows
+from diagnosis.prepare.noise.varying_noise import VaryingNoise
+from diagnosis.prepare.prepared_log import PreparedTrial
 
 Array = NDArray[np.float64]
 TimedArray = tuple[Array, Array]
@@ -53,7 +54,7 @@ class Noise:
       colour_chi_square: by which white noise has to fit a spectrum worse for noise to be coloured.
       flicker: sensors whose noise is flicker noise, and the frequency, Hz, above which it is looked at.
       drifts: drift that sensors may have within a trial.
-      grows: how the noise of sensors grows, whose samples then have weights.
+      varies: how the noise of sensors varies, whose samples then have weights.
     """
 
     sigma: Mapping[str, float]
@@ -66,7 +67,7 @@ class Noise:
     colour_chi_square: float = COLOUR_CHI_SQUARE
     flicker: Mapping[str, float] = field(default_factory=dict)
     drifts: Mapping[str, AllowedDrift] = field(default_factory=dict)
-    grows: Mapping[str, GrowingNoise] = field(default_factory=dict)
+    varies: Mapping[str, tuple[VaryingNoise, ...]] = field(default_factory=dict)
 
     def __getitem__(self, sensor: str) -> float:
         return self.sigma[sensor]
@@ -123,10 +124,18 @@ class Noise:
         found = flicker_noise(parts, self.means_of, above_hz) if above_hz else None
         return found.noise if found else None
 
-    def growing(self, found: Mapping[str, GrowingNoise]) -> "Noise":
-        """The noise of which that of some sensors also grows."""
+    def varying(self, found: Mapping[str, VaryingNoise]) -> "Noise":
+        """The noise of which that of some sensors also varies."""
         sigma = {s: own * found[s].noise_ratio if s in found else own for s, own in self.sigma.items()}
-        return replace(self, sigma=sigma, grows={**self.grows, **found})
+        more = {s: (*self.varies.get(s, ()), own) for s, own in found.items()}
+        return replace(self, sigma=sigma, varies={**self.varies, **more})
+
+    def sizes(self, sensor: str, trial: PreparedTrial) -> Array:
+        """Noise of a sensor at every sample / its root mean square over the log, (N,)."""
+        sizes = np.ones(trial.time_s.size)
+        for own in self.varies.get(sensor, ()):
+            sizes = sizes * own.sizes(trial)
+        return sizes
 
     def same(self, other: "Noise") -> bool:
         """Whether residuals in units of both are the same."""
@@ -145,17 +154,18 @@ class Noise:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Warnings, and the sensors whose noise is not white or grows."""
+        """Warnings, and the sensors whose noise is not white or varies."""
         each = (
             f"{sensor}: {100 * min(colour.share, 1.0):.0f} % of the noise's variance is correlated "
             f"{colour.in_words}; the diagnosis allows for it"
             for sensor, colour in self.colour.items()
         )
-        grown = (
+        varies = (
             f"{sensor}: the noise {own.in_words}; samples count accordingly"
-            for sensor, own in self.grows.items()
+            for sensor, found in self.varies.items()
+            for own in found
         )
-        return (*self.warnings, *each, *grown)
+        return (*self.warnings, *each, *varies)
 
 
 def estimate_noise(

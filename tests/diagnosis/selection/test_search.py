@@ -51,6 +51,7 @@ def test_the_stages_are_these_in_this_order():
         "starts_of_trials",
         "clocks_before_trials",
         "noise_that_grows",
+        "noise_of_each_trial",
         "outliers_beside_the_best",
         "weakly_coloured_noise",
         "flicker_noise",

@@ -62,7 +62,7 @@ def test_what_was_fitted_is_in_units_of_the_noise_that_grows(both):
 def test_means_of_a_decimated_log_count_by_the_noise_of_their_samples(both):
     _, after = both
     (trial,) = after.problem.log.trials
-    sizes = after.problem.noise.grows[SENSOR].sizes(trial)
+    sizes = after.problem.noise.varies[SENSOR][0].sizes(trial)
     (coarse,) = after.coarse.log.trials
     expected = np.interp(coarse.time_s, trial.time_s, 1 / sizes)
     np.testing.assert_allclose(coarse.weights[SENSOR][2:-2], expected[2:-2], rtol=0.1)
@@ -71,4 +71,4 @@ def test_means_of_a_decimated_log_count_by_the_noise_of_their_samples(both):
 def test_a_log_that_is_explained_is_left_alone():
     before, after = searched(log_of(NOMINAL, seconds=12.0))
     assert after.problem is before.problem
-    assert after.problem.noise.grows == {}
+    assert after.problem.noise.varies == {}

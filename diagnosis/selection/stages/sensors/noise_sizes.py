@@ -1,0 +1,96 @@
+"""The state of the search in which the noise of a sensor is not of one size.
+
+Samples count by what their noise is; what was fitted before is in units of that.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.noise_reestimation import by_trial_and_sensor
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.prepare.noise.varying_noise import VaryingNoise
+from diagnosis.prepare.prepared_log import PreparedTrial
+from diagnosis.selection.candidate import Candidate, candidate
+from diagnosis.selection.record import Decision, noted
+from diagnosis.selection.stages.stage import leading_fitted_again
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Workers
+
+Array = NDArray[np.float64]
+Found = Mapping[str, VaryingNoise]
+
+
+def left_at_samples(problem: FitProblem, fit: Fit) -> dict[str, list[tuple[PreparedTrial, Array]]]:
+    """By sensor: trials, and what a fit leaves / sigma at their samples, (N,); NaN where not read."""
+    read: dict[str, list[tuple[PreparedTrial, Array]]] = {}
+    each = zip(problem.log.trials, by_trial_and_sensor(problem, fit.by_trial), strict=True)
+    for trial, parts in each:
+        for sensor, _, left in parts:
+            at_samples = np.full(trial.time_s.size, np.nan)
+            at_samples[np.isfinite(trial.readings[sensor])] = left
+            read.setdefault(sensor, []).append((trial, at_samples))
+    return read
+
+
+def fitted_with_sizes(stage: str, state: SearchState, found: Found, workers: Workers) -> SearchState:
+    """The state in which the noise of sensors varies so, the leading explanations fitted again."""
+    begun = _with_sizes(state, found)
+    told = (noted(stage, Decision.KEPT, f"{s}: it {own.in_words}") for s, own in found.items())
+    made = leading_fitted_again(stage, begun, begun.problem, workers)
+    return replace(begun, checked=None).adding(made).noting(*told)
+
+
+def _with_sizes(state: SearchState, found: Found) -> SearchState:
+    """The state with weights of the samples, and what was fitted in units of them."""
+    fine, coarse = _weighted(state.problem, found), _weighted(state.coarse, found)
+
+    def again(own: Sequence[Candidate], of: FitProblem) -> tuple[Candidate, ...]:
+        return tuple(candidate(_reweighted(c.fit, of, found)) for c in own)
+
+    return replace(
+        state,
+        problem=fine,
+        coarse=coarse,
+        nominal=_reweighted(state.nominal, state.problem, found),
+        candidates=again(state.candidates, state.problem),
+        singles=again(state.singles, state.coarse),
+        pairs=again(state.pairs, state.coarse),
+        triples=again(state.triples, state.coarse),
+    )
+
+
+def _weighted(problem: FitProblem, found: Found) -> FitProblem:
+    def weighted(trial: PreparedTrial) -> PreparedTrial:
+        own = {s: trial.weights.get(s, 1.0) / varies.sizes(trial) for s, varies in found.items()}
+        return replace(trial, weights={**trial.weights, **own})
+
+    log = replace(problem.log, trials=tuple(weighted(trial) for trial in problem.log.trials))
+    return replace(problem, log=log, noise=problem.noise.varying(found))
+
+
+def _reweighted(fit: Fit, problem: FitProblem, found: Found) -> Fit:
+    """A fit of the problem, whose noise did not vary so, in units of noise that does."""
+    rows = [
+        np.concatenate([_sizes(trial, sensor, found) for sensor, _, _ in parts] or [np.zeros(0)])
+        for trial, parts in zip(
+            problem.log.trials, by_trial_and_sensor(problem, fit.by_trial), strict=True
+        )
+    ]
+    by_trial = tuple(own / size for own, size in zip(fit.by_trial, rows, strict=True))
+    return replace(
+        fit,
+        by_trial=by_trial,
+        jacobian=tuple(own / size[:, None] for own, size in zip(fit.jacobian, rows, strict=True)),
+        cost=sum(float(own @ own) for own in by_trial) + fit.prior,
+    )
+
+
+def _sizes(trial: PreparedTrial, sensor: str, found: Found) -> Array:
+    """Noise at the readings of a sensor, in units of what it was taken for."""
+    read = np.isfinite(trial.readings[sensor])
+    own = found.get(sensor)
+    return own.noise_ratio * own.sizes(trial)[read] if own else np.ones(np.count_nonzero(read))
