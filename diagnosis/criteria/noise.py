@@ -46,6 +46,9 @@ lacks nothing else left 1.00 and 1.05 in two such logs, and 1.1 is what is asked
 frequency from which on noise of 1/f is looked for that begins near 1 Hz: three waves of it in windows of
 6 s. And the correlation of what is left of tip and torque, in its standard deviations, that noise of two
 sensors may have by chance (derived: once in 370)."""
+FLICKER_EXPONENTS = (1.0, 1.2)
+"""Powers of 1 / f that flicker noise may have. One log that lacks nothing had the second, and 1 / f left
+means over seconds 1.6 times as large; steeper noise would hide more of what effects leave. A choice."""
 COLOURED_BLOCK_S = 2.0
 """Blocks whose means have to be those of noise, too, where it is coloured: seven times the longest
 correlation time, so that they are as good as independent. Coloured noise is strong where effects are,

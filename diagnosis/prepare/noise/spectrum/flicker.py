@@ -23,6 +23,7 @@ from diagnosis.criteria.noise import (
     COLOUR_LONGEST_S,
     COLOUR_OPEN,
     COLOUR_WINDOW_S,
+    FLICKER_EXPONENTS,
 )
 from diagnosis.prepare.noise.noise_colour import ColouredPart, NoiseColour
 from diagnosis.prepare.noise.spectrum.levels import (
@@ -39,7 +40,6 @@ Sized = tuple[NoiseShape, float]  # a process, and its share of the variance of 
 
 _WAVES = COLOUR_WINDOW_S * COLOUR_ABOVE_HZ
 _TIMES = 8  # correlation times: the density is within some per cent of 1 / f
-_EXPONENTS = (1.0, 1.2)  # of amplifiers 0.8 to 1.4, of which the flatter hide nothing slow
 _SHOWN = 2.0  # times 2 pi f of the lowest frequency: its density is 0.8 of what it falls as there
 
 
@@ -75,13 +75,13 @@ def flicker_noise(
         return None
     slowest_s = max(time_s[-1] - time_s[0] for time_s, _ in parts) / (2.0 * np.pi)
     fast = _processes(spectrum, spectrum.step_s, slowest_s, means_of)
-    tried = [_as_powers(fast, exponent) for exponent in _EXPONENTS]
+    tried = [_as_powers(fast, exponent) for exponent in FLICKER_EXPONENTS]
     longest_s = _SHOWN / (2.0 * np.pi * above_hz)
     if longest_s > COLOUR_LONGEST_S:
         tried += [
             ((own, 1.0),) for own in _processes(spectrum, COLOUR_LONGEST_S, longest_s, means_of)[1:]
         ]
-    sized = [_sized(spectrum, parts) for parts in tried]
+    sized = [_sized(spectrum, own) for own in tried]
     least = min(cost for cost, _ in sized)
     open_ = [(cost, noise) for cost, noise in sized if noise and cost <= least + COLOUR_OPEN]
     if not open_:
@@ -107,19 +107,19 @@ def _as_powers(shapes: Sequence[NoiseShape], exponent: float) -> tuple[Sized, ..
 
 
 def _sized(
-    spectrum: NoiseLevels, parts: Sequence[Sized]
+    spectrum: NoiseLevels, each: Sequence[Sized]
 ) -> tuple[float, tuple[float, NoiseColour] | None]:
     """Chi-square of white noise and processes together, and that noise; None: it is white."""
-    levels = np.sum([share * shape.levels for shape, share in parts], axis=0)
+    levels = np.sum([share * shape.levels for shape, share in each], axis=0)
     cost, (white, size) = spectrum.fitted(np.column_stack([spectrum.white, levels]))
     if size <= 0.0:
         return cost, None
-    variance = float(white) + sum(float(size) * share * shape.variance_ratio for shape, share in parts)
+    variance = float(white) + sum(float(size) * share * shape.variance_ratio for shape, share in each)
     found = tuple(
         ColouredPart(
             share=float(size) * share * shape.part.share / variance,
             correlation_time_s=shape.part.correlation_time_s,
         )
-        for shape, share in reversed(parts)
+        for shape, share in reversed(each)
     )
     return cost, (float(np.sqrt(variance)), NoiseColour(parts=found, flicker=len(found) > 1))

@@ -1,9 +1,9 @@
-"""The state of the search in which the noise of a sensor is not of one size.
+"""Noise of a sensor that is not of one size, where nothing explains the log without it.
 
 Samples count by what their noise is; what was fitted before is in units of that.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -22,11 +22,13 @@ from diagnosis.workers import Workers
 
 Array = NDArray[np.float64]
 Found = Mapping[str, VaryingNoise]
+Left = list[tuple[PreparedTrial, Array]]
+Find = Callable[[FitProblem, str, Left], VaryingNoise | None]
 
 
-def left_at_samples(problem: FitProblem, fit: Fit) -> dict[str, list[tuple[PreparedTrial, Array]]]:
+def _left_at_samples(problem: FitProblem, fit: Fit) -> dict[str, Left]:
     """By sensor: trials, and what a fit leaves / sigma at their samples, (N,); NaN where not read."""
-    read: dict[str, list[tuple[PreparedTrial, Array]]] = {}
+    read: dict[str, Left] = {}
     each = zip(problem.log.trials, by_trial_and_sensor(problem, fit.by_trial), strict=True)
     for trial, parts in each:
         for sensor, _, left in parts:
@@ -36,8 +38,21 @@ def left_at_samples(problem: FitProblem, fit: Fit) -> dict[str, list[tuple[Prepa
     return read
 
 
-def fitted_with_sizes(stage: str, state: SearchState, found: Found, workers: Workers) -> SearchState:
-    """The state in which the noise of sensors varies so, the leading explanations fitted again."""
+def with_varying_noise(stage: str, state: SearchState, find: Find, workers: Workers) -> SearchState:
+    """The state in which the noise of sensors varies, where nothing explains the log and it does.
+
+    That changes what is likeliest: the leading explanations are fitted again. It is kept whether they
+    explain the log then or not, since it is seen in differences, whatever is missing.
+
+    Args:
+      find: how the noise of a sensor varies in what the best explanation leaves of it.
+    """
+    state, explained = state.rechecked()
+    read = {} if explained else _left_at_samples(state.problem, state.best.fit)
+    each = {sensor: find(state.problem, sensor, left) for sensor, left in read.items()}
+    found = {sensor: own for sensor, own in each.items() if own}
+    if not found:
+        return state
     begun = _with_sizes(state, found)
     told = (noted(stage, Decision.KEPT, f"{s}: it {own.in_words}") for s, own in found.items())
     made = leading_fitted_again(stage, begun, begun.problem, workers)

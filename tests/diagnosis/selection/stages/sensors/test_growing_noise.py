@@ -4,15 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import TIP, log_of, start_of_search
+from diagnosis_fixtures import TIP, log_of
+from varying_logs import (
+    SENSOR,
+    check_it_is_allowed_for_and_told,
+    check_it_is_left_alone,
+    searched,
+)
 
 from diagnosis.log.trial import Trial
 from diagnosis.replay.rig_parameters import NOMINAL
-from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.sensors.growing_noise import STAGE, noise_that_grows
-from diagnosis.workers import Workers
 
-SENSOR = "tip_angle_deg"
 FACTOR = 16.0
 SECONDS = 30.0
 
@@ -28,28 +31,16 @@ def growing(log, seed=5):
     return replace(log, trials=(Trial(name=one.name, table=table),))
 
 
-def searched(log):
-    state = nominal_rig(start_of_search(log, effects=()), Workers())
-    return state, noise_that_grows(state, Workers())
-
-
 @pytest.fixture(scope="module")
 def both():
     """A base that turns fast for short times, so that most samples have the noise of rest."""
     time = np.arange(0, SECONDS, 0.01)
     swings = 60 * np.sin(1.5 * time) ** 15
-    return searched(growing(log_of(NOMINAL, seconds=SECONDS, angle=swings)))
+    return searched(growing(log_of(NOMINAL, seconds=SECONDS, angle=swings)), noise_that_grows)
 
 
 def test_noise_that_grows_is_allowed_for_and_told(both):
-    before, after = both
-    _, explained = before.rechecked()
-    assert not explained
-    _, explained = after.rechecked()
-    assert explained
-    assert [e.stage for e in after.record[len(before.record) :] if e.score is None] == [STAGE]
-    (note,) = [n for n in after.problem.noise.notes if "grows with" in n]
-    assert note.startswith(SENSOR)
+    check_it_is_allowed_for_and_told(*both, STAGE, "grows with")
 
 
 def test_what_was_fitted_is_in_units_of_the_noise_that_grows(both):
@@ -69,6 +60,4 @@ def test_means_of_a_decimated_log_count_by_the_noise_of_their_samples(both):
 
 
 def test_a_log_that_is_explained_is_left_alone():
-    before, after = searched(log_of(NOMINAL, seconds=12.0))
-    assert after.problem is before.problem
-    assert after.problem.noise.varies == {}
+    check_it_is_left_alone(*searched(log_of(NOMINAL, seconds=12.0), noise_that_grows))

@@ -4,57 +4,27 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import TIP, joined, log_of, start_of_search, turns
+from varying_logs import (
+    MORE,
+    SENSOR,
+    check_it_is_allowed_for_and_told,
+    check_it_is_left_alone,
+    four_trials,
+    noisy,
+    searched,
+)
 
 from diagnosis.fitting.noise_reestimation import reestimated_noise
-from diagnosis.log.trial import Trial
-from diagnosis.replay.rig_parameters import NOMINAL
-from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.sensors.noise_by_trial import STAGE, noise_of_each_trial
-from diagnosis.workers import Workers
-
-SENSOR = "tip_angle_deg"
-MORE = (0.0, 0.0, 0.0, 6.0)  # noise that is added to the tip in each trial, in its own
-
-
-def noisy(log, more, seed=6):
-    rng = np.random.default_rng(seed)
-    each = zip(log.trials, more, strict=True)
-    trials = tuple(
-        Trial(
-            name=one.name,
-            table=one.table.assign(
-                tip_angle_deg=one[SENSOR] + TIP * k * rng.normal(size=len(one.table))
-            ),
-        )
-        for one, k in each
-    )
-    return replace(log, trials=trials)
-
-
-def four_trials():
-    return joined(*(log_of(NOMINAL, seed=seed, angle=turns(12.0)) for seed in range(len(MORE))))
-
-
-def searched(log):
-    state = nominal_rig(start_of_search(log, effects=()), Workers())
-    return state, noise_of_each_trial(state, Workers())
 
 
 @pytest.fixture(scope="module")
 def both():
-    return searched(noisy(four_trials(), MORE))
+    return searched(noisy(four_trials()), noise_of_each_trial)
 
 
 def test_noise_of_each_trial_is_allowed_for_and_told(both):
-    before, after = both
-    _, explained = before.rechecked()
-    assert not explained
-    _, explained = after.rechecked()
-    assert explained
-    assert [e.stage for e in after.record[len(before.record) :] if e.score is None] == [STAGE]
-    (note,) = [n for n in after.problem.noise.notes if "from trial to trial" in n]
-    assert note.startswith(SENSOR)
+    check_it_is_allowed_for_and_told(*both, STAGE, "from trial to trial")
 
 
 def test_what_was_fitted_is_in_units_of_the_noise_of_its_trial(both):
@@ -82,12 +52,10 @@ def test_means_of_a_decimated_log_count_by_the_noise_of_their_trial(both):
     by_name = {trial.name: trial for trial in before.coarse.log.trials}
     (varies,) = after.problem.noise.varies[SENSOR]
     for fine, coarse in zip(after.problem.log.trials, after.coarse.log.trials, strict=True):
-        before = by_name[coarse.name].weights.get(SENSOR, 1.0)
-        expected = np.broadcast_to(before / varies.sizes(fine)[0], coarse.time_s.shape)
+        own = by_name[coarse.name].weights.get(SENSOR, 1.0)
+        expected = np.broadcast_to(own / varies.sizes(fine)[0], coarse.time_s.shape)
         np.testing.assert_allclose(coarse.weights[SENSOR], expected, rtol=1e-6)
 
 
 def test_a_log_that_is_explained_is_left_alone():
-    before, after = searched(four_trials())
-    assert after.problem is before.problem
-    assert after.problem.noise.varies == {}
+    check_it_is_left_alone(*searched(four_trials(), noise_of_each_trial))
