@@ -29,8 +29,8 @@ from models.record import Record
 
 Array = NDArray[np.float64]
 
-RATE_POINTS = 12
-"""Of a curve over the rate."""
+RATE_POINTS = 23
+"""Of a curve over the rate, at most."""
 THINNEST_MM = 1e-3
 """A layer into which the tip reaches less far is not met."""
 
@@ -69,7 +69,7 @@ class Interface(Record):
     stiffness_varies: bool = False
     """Whether the stiffness alone is."""
     rate_curve: tuple[Positive, ...] = ()
-    """Factors of the viscous torque at `RATE_POINTS` rates, evenly spaced in their logarithm."""
+    """Factors of the viscous torque at 2 to `RATE_POINTS` rates, evenly spaced in their logarithm."""
     rate_range_rad_s: tuple[Positive, Positive] = (0.01, 10.0)
     """Lowest and highest rate of the curve, which is level beyond them."""
     contact: ContactCurve | None = None
@@ -77,8 +77,9 @@ class Interface(Record):
 
     @model_validator(mode="after")
     def _curve_is_complete(self) -> "Interface":
-        if len(self.rate_curve) not in (0, RATE_POINTS):
-            raise InvalidValue("rate_curve", len(self.rate_curve), f"{RATE_POINTS} factors, or none")
+        if self.rate_curve and not 2 <= len(self.rate_curve) <= RATE_POINTS:
+            expected = f"2 to {RATE_POINTS} factors, or none"
+            raise InvalidValue("rate_curve", len(self.rate_curve), expected)
         low, high = self.rate_range_rad_s
         if low >= high:
             raise InvalidValue("rate_range_rad_s", (low, high), "a lower rate, then a higher one")

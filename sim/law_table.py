@@ -158,8 +158,10 @@ def _interface(law: Interface) -> Array:
     if law.rate_curve:
         low, high = np.log(law.rate_range_rad_s)
         row[memory_map.L_RATE_LOW] = low
-        row[memory_map.L_RATE_STEP] = (high - low) / (memory_map.CURVE_POINTS - 1)
-        row[memory_map.L_CURVE_0 : memory_map.L_CONTACT] = np.log(law.rate_curve)
+        row[memory_map.L_RATE_STEP] = (high - low) / (len(law.rate_curve) - 1)
+        level_beyond = memory_map.CURVE_POINTS - len(law.rate_curve)
+        factors = np.pad(law.rate_curve, (0, level_beyond), mode="edge")
+        row[memory_map.L_CURVE_0 : memory_map.L_CONTACT] = np.log(factors)
     if law.contact:
         _set_contact(row, law.contact)
     shaped = law.asymmetry != 0.0 or law.varies or law.rate_curve or law.contact

@@ -11,7 +11,8 @@ from diagnosis.freeform.smooth_curve import SmoothCurve
 
 Points = tuple[ArrayLike, ArrayLike]
 """A curve by points: x, and y at each."""
-_STRAIGHT, _REST = "straight", "rest"
+KINDS = STRAIGHT, REST, DETAIL = "straight", "rest", "detail"
+"""Parts of a curve, by the names of their coordinates."""
 VISCOUS = "N mm s / rad / mm"
 """Unit of damping along the shaft: laws in it multiply the damping of the tissue."""
 FARTHEST = 12.0  # of a coordinate, in its prior's first guess
@@ -70,11 +71,11 @@ class Family:
         """The most probable place of the cause."""
         return most_probable(self.places)
 
-    def with_prior(self, straight: float, rest: float) -> "Family":
-        """The same family with other standard deviations of the priors on its coordinates."""
-        each = {_STRAIGHT: straight, _REST: rest}
+    def with_prior(self, sigma_of: Mapping[str, float]) -> "Family":
+        """The same family with other standard deviations of the priors on its coordinates, by kind."""
         changed = tuple(
-            replace(p, prior_sigma=each[kind_of(p)]) if kind_of(p) else p for p in self.effect.parameters
+            replace(p, prior_sigma=sigma_of.get(kind_of(p), p.prior_sigma))
+            for p in self.effect.parameters
         )
         return replace(self, effect=replace(self.effect, parameters=changed))
 
@@ -84,10 +85,13 @@ def most_probable(places: Mapping[Place, float]) -> Place:
     return max(places, key=lambda place: places[place])
 
 
-def coordinates(straight: int, rest: int, scale: float = 1.0) -> tuple[Parameter, ...]:
+def coordinates(
+    straight: int, rest: int, scale: float = 1.0, *, detail: int = 0
+) -> tuple[Parameter, ...]:
     """Coordinates of a smooth curve, with a first prior of standard deviation `scale`."""
     bound = FARTHEST * scale
-    names = [f"{_STRAIGHT} {i}" for i in range(straight)] + [f"{_REST} {i}" for i in range(rest)]
+    counts = zip(KINDS, (straight, rest, detail), strict=True)
+    names = [f"{kind} {i}" for kind, count in counts for i in range(count)]
     return tuple(
         Parameter(
             name=name, unit="-", low=-bound, high=bound, start=(0.0,), scale=scale, prior_sigma=1.0
@@ -98,10 +102,11 @@ def coordinates(straight: int, rest: int, scale: float = 1.0) -> tuple[Parameter
 
 def coordinates_of(curve: SmoothCurve, scale: float = 1.0) -> tuple[Parameter, ...]:
     """Coordinates of a curve."""
-    own = coordinates(curve.straight, curve.size - curve.straight, scale)
-    sizes = np.linalg.norm(curve.basis[:, curve.straight :], axis=0)
+    rest = slice(curve.straight, curve.size - curve.detail)
+    own = coordinates(curve.straight, rest.stop - rest.start, scale, detail=curve.detail)
+    sizes = np.linalg.norm(curve.basis[:, rest], axis=0)
     fine = np.zeros(curve.size, bool)
-    fine[curve.straight :] = sizes < FINE * sizes.max(initial=0.0)
+    fine[rest] = sizes < FINE * sizes.max(initial=0.0)
     return tuple(replace(p, fine=bool(one)) for p, one in zip(own, fine, strict=True))
 
 
@@ -118,4 +123,4 @@ def of_trials(count: int, scale: float = 1.0) -> tuple[Parameter, ...]:
 def kind_of(parameter: Parameter) -> str:
     """The part of a curve that a parameter is a coordinate of; empty: none."""
     word = parameter.name.split()[0]
-    return word if word in (_STRAIGHT, _REST) else ""
+    return word if word in KINDS else ""

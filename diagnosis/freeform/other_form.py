@@ -31,7 +31,7 @@ from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
-from diagnosis.freeform.family import Family
+from diagnosis.freeform.family import REST, STRAIGHT, Family
 from diagnosis.freeform.fits.free_fit import with_family
 from diagnosis.freeform.fits.full_fit import ITERATIONS
 from diagnosis.freeform.ranges import ranges_of
@@ -44,7 +44,7 @@ Array = NDArray[np.float64]
 
 STAGE = "other forms of a law"
 PROMISING = 0.998  # of the cost, after one step
-_NEARLY_STRAIGHT = (0.5, 0.1)  # priors of a curve's straight part and its rest
+_NEARLY_STRAIGHT = {STRAIGHT: 0.5, REST: 0.1}  # priors of the parts of a curve
 _WEAK = 0.05  # times the first start of a level
 
 
@@ -134,7 +134,7 @@ class _Comparison:
     def _on_the_decimated_log(self, names: tuple[str, ...], enough: float) -> Fit | None:
         """A fit from where the explanation is; None: it cannot come near enough."""
         # From far off a fit may end in a local minimum; another one begins with a nearly straight curve.
-        straight = with_family(self.coarse, self.family.with_prior(*_NEARLY_STRAIGHT))
+        straight = with_family(self.coarse, self.family.with_prior(_NEARLY_STRAIGHT))
         own = with_family(self.coarse, self.family)
         begun = {self.family.name: _begun(self.known, self.coarse, self.replaced, self.family)}
         if len(names) == len(self.known.names) and self._starts_as_the_effect():

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.held_out.cross_validation import information
-from diagnosis.freeform.family import Family, kind_of
+from diagnosis.freeform.family import KINDS, Family, kind_of
 
 Array = NDArray[np.float64]
 
@@ -42,12 +42,11 @@ def well_determined(family: Family, fit: Fit) -> float:
 
 
 def with_estimated_prior(family: Family, fit: Fit) -> Family:
-    """The family with priors estimated from the fit, for the straight part and for the rest."""
+    """The family with priors estimated from the fit, for each part of its curve."""
     kinds = np.array([kind_of(p) for p in family.effect.parameters])
     entries = _entries(family, fit)
     spread = np.diag(free_covariance(fit))
-    straight, rest = (_strength(fit, spread, entries[kinds == k]) for k in ("straight", "rest"))
-    return family.with_prior(straight, rest)
+    return family.with_prior({k: _strength(fit, spread, entries[kinds == k]) for k in KINDS})
 
 
 def _strength(fit: Fit, spread: Array, entries: NDArray[np.int_]) -> float:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Parameter
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.smooth_curve import SmoothCurve
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.prediction import Prediction
@@ -63,6 +64,7 @@ class LogRanges:
       nominal: readings of the nominal rig by trial.
       left: residual of the nominal rig by sensor and trial, in the unit of its name; NaN: no reading.
       softer: readings of a rig with a little less damping by trial; none: not simulated.
+      detailed: whether curves of free-form laws have more detail than usual.
     """
 
     problem: FitProblem
@@ -71,6 +73,11 @@ class LogRanges:
     missing: Mapping[str, float]
     left: Mapping[str, tuple[Array, ...]]
     softer: Sequence[Prediction] = ()
+    detailed: bool = False
+
+    def in_detail(self, curve: SmoothCurve) -> SmoothCurve:
+        """The curve of a law: finer, if laws of these ranges are detailed."""
+        return curve.finer if self.detailed else curve
 
     @property
     def library(self) -> Mapping[str, Effect]:

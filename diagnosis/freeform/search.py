@@ -26,9 +26,9 @@ from diagnosis.freeform.fits.combined_laws import beside_one, beside_several, di
 from diagnosis.freeform.fits.first_fit import first_fit
 from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, few_of_each, with_family
 from diagnosis.freeform.fits.full_fit import full_fit
-from diagnosis.freeform.fits.growing_laws import growing
 from diagnosis.freeform.fits.held_out_check import fitted_and_checked
-from diagnosis.freeform.ranges import ranges_of
+from diagnosis.freeform.fits.richer_laws import richer
+from diagnosis.freeform.ranges import LogRanges, ranges_of
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.workers import Workers
@@ -68,9 +68,7 @@ def free_form_fits(
     base = fit_effects(coarse, ())
     rough = on_coarser_needle(coarse, base)
     first, fitted = _alone(coarse, rough, base, families_of(ranges), workers)
-    if _open(fitted):
-        alone = unlike(distinct([*sorted(fitted, key=lambda f: f.score), *first]))
-        fitted += growing(coarse, alone, ranges, workers)
+    fitted = _richer(coarse, first, fitted, ranges, workers)
     if _open(fitted):
         fitted += beside_one(coarse, rough, base, fitted, first, effects, workers)
     far = _far(fitted, problem, coarse)
@@ -96,14 +94,33 @@ def _alone(
     return first, fitted
 
 
+def _richer(
+    coarse: FitProblem,
+    first: Sequence[FreeFit],
+    fitted: Sequence[FreeFit],
+    ranges: LogRanges,
+    workers: Workers,
+) -> list[FreeFit]:
+    """The fits, and those of richer families; of each law the best."""
+    ranked = sorted(fitted, key=lambda f: f.score)
+    growing = _open(fitted)
+    alone = unlike(distinct([*ranked, *first])) if growing else _worth_a_final(ranked)
+    more = richer(coarse, alone, ranges, workers, growing=growing)
+    return distinct(sorted([*fitted, *more], key=lambda f: f.score))
+
+
 def _finalists(fitted: Sequence[FreeFit], far: bool) -> list[FreeFit]:
     """The fits that go to the log itself, best first."""
-    least = min((f.fit.gap for f in fitted), default=np.inf)
-    reach = WORTH_A_FINAL_BESIDE if least <= CLOSED_GAP else WORTH_A_FINAL
-    worth = [f for f in fitted if f.fit.gap <= reach * least]
-    ranked = unlike(sorted(worth, key=lambda f: f.score))
+    ranked = _worth_a_final(sorted(fitted, key=lambda f: f.score))
     last = list(few_of_each(ranked, lambda f: f.family.name, FINALISTS_OF_ONE))
     return last[: FAR_FINALISTS if far else _affordable(last)]
+
+
+def _worth_a_final(ranked: Sequence[FreeFit]) -> list[FreeFit]:
+    """The fits that leave different things, and little more than the one that leaves least."""
+    least = min((f.fit.gap for f in ranked), default=np.inf)
+    reach = WORTH_A_FINAL_BESIDE if least <= CLOSED_GAP else WORTH_A_FINAL
+    return unlike([f for f in ranked if f.fit.gap <= reach * least])
 
 
 def _behind(

@@ -37,12 +37,14 @@ class SmoothCurve:
       places: values of the variable, increasing, (K,).
       basis: values of the curve at the places for each coordinate, (K, n).
       straight: number of coordinates of the straight part (constant and slope), which come first.
+      detail: number of those of a finer curve's detail, which come last.
       period: period of the variable; 0: none.
     """
 
     places: Array
     basis: Array
     straight: int
+    detail: int = 0
     period: float = 0.0
 
     @property
@@ -63,6 +65,21 @@ class SmoothCurve:
         """Exponentials of the values at the places, (K,): factors that are positive and finite."""
         within = np.clip(self.values(coordinates), -_FARTHEST_LOG, _FARTHEST_LOG)
         return tuple(float(v) for v in np.exp(within))
+
+    @property
+    def finer(self) -> "SmoothCurve":
+        """The curve with places halfway between its own, and the detail there: what it is off straight
+        lines between those.
+
+        Its first coordinates are those of the curve as it is, and give the same values.
+        """
+        own = np.append(self.places, self.places[0] + self.period) if self.period else self.places
+        halfway = 0.5 * (own[1:] + own[:-1])
+        places = np.sort(np.append(self.places, halfway))
+        period = self.period or None
+        columns = [np.interp(places, self.places, own, period=period) for own in self.basis.T]
+        columns += [(places == place).astype(float) for place in halfway]
+        return replace(self, places=places, basis=np.stack(columns, axis=1), detail=halfway.size)
 
     def zero_at_zero(self) -> "SmoothCurve":
         """The curve less its value where the variable is 0; as it is, if the places do not span 0.

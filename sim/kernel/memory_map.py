@@ -113,6 +113,17 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CURVE_9,
     L_CURVE_10,
     L_CURVE_11,
+    L_CURVE_12,
+    L_CURVE_13,
+    L_CURVE_14,
+    L_CURVE_15,
+    L_CURVE_16,
+    L_CURVE_17,
+    L_CURVE_18,
+    L_CURVE_19,
+    L_CURVE_20,
+    L_CURVE_21,
+    L_CURVE_22,
     L_CONTACT,  # what the curve of the following is over; 0: there is none
     L_CONTACT_SCALE,  # of the curve over that, rad, s or (rad/s)^2
     L_CONTACT_STEP,  # of log(1 + it / scale) between places of the curve
@@ -128,7 +139,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT_7,
     L_CONTACT_8,
     COLUMNS,
-) = range(56)
+) = range(67)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
 SLIP_SO_FAR, AGE, HEAT, BROKEN, TURNED, TWIST = (

@@ -114,10 +114,11 @@ def test_dry_friction_over_the_inserted_length_may_be_asymmetric() -> None:
 
 
 @pytest.mark.parametrize("rate", [0.03, 0.3, 0.8, 20.0])
-def test_the_rate_curve_is_followed_between_and_beyond_its_places(rate: float) -> None:
-    factors = tuple(np.geomspace(3.0, 0.4, RATE_POINTS) * (1.0 + 0.1 * np.sin(np.arange(RATE_POINTS))))
+@pytest.mark.parametrize("count", [2, 12, RATE_POINTS])
+def test_the_rate_curve_is_followed_between_and_beyond_its_places(count: int, rate: float) -> None:
+    factors = tuple(np.geomspace(3.0, 0.4, count) * (1.0 + 0.1 * np.sin(np.arange(count))))
     tissue = Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING, rate_curve=factors)
-    places = np.linspace(math.log(0.01), math.log(10.0), RATE_POINTS)
+    places = np.linspace(math.log(0.01), math.log(10.0), count)
     factor = math.exp(np.interp(math.log(rate), places, np.log(factors)))
     expected = factor * DAMPING * LENGTH_MM * rate
     assert steady_n_mm(turned(tissue, rate=rate)) == pytest.approx(expected, rel=1e-5)
@@ -221,8 +222,9 @@ def test_dry_friction_may_depend_on_the_angle() -> None:
 
 def test_the_curve_has_as_many_places_in_the_model_as_in_the_kernel() -> None:
     assert RATE_POINTS == memory_map.CURVE_POINTS
-    with pytest.raises(InvalidValue, match=r"rate_curve.*12 factors"):
-        Interface(rate_curve=(1.0, 2.0))
+    for factors in ((1.0,), (1.0,) * (RATE_POINTS + 1)):
+        with pytest.raises(InvalidValue, match=r"rate_curve.*2 to 23 factors"):
+            Interface(rate_curve=factors)
 
 
 PLACES = 6.0 * (np.arange(STIFFNESS_POINTS) / (STIFFNESS_POINTS - 1)) ** 2

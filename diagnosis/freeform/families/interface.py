@@ -67,7 +67,7 @@ def curve_over(variable: Variable, ranges: LogRanges) -> SmoothCurve:
     ends = ranges.ends[variable]
     if variable is Variable.AXIAL_SPEED:
         return jumping_curve(*ends)
-    return smooth_curve(*ends, fading=variable in FADING)
+    return ranges.in_detail(smooth_curve(*ends, fading=variable in FADING))
 
 
 def _damping_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> Family:

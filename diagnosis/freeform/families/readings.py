@@ -184,23 +184,24 @@ def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
             TURN_DEG / waves_in_a_turn(ranges, added.sensor, added.variable), RIPPLE_PLACES
         )
     if added.period_deg:
-        return periodic_curve(added.period_deg)
+        return ranges.in_detail(periodic_curve(added.period_deg))
     if added.variable in _OF_DIRECTION:
         return _OF_DIRECTION[added.variable]()
     if added.variable is Variable.TURNED_BY:
         return _hysteresis(added, ranges)
-    return _over_the_range(added, *ranges.ends[added.variable])
+    return _over_the_range(added, ranges)
 
 
-def _over_the_range(added: Added, low: float, high: float) -> SmoothCurve:
+def _over_the_range(added: Added, ranges: LogRanges) -> SmoothCurve:
+    low, high = ranges.ends[added.variable]
     if added.variable is Variable.PAST:
         return separate_values(np.geomspace(low, high, PAST_PLACES))
     if added.variable is Variable.AXIAL_SPEED:
         return jumping_curve(low, high, PLACES)
     if added.bent:
-        curve = bent_curve(low, high, PLACES, close=added.variable in _RATES)
+        curve = ranges.in_detail(bent_curve(low, high, PLACES, close=added.variable in _RATES))
         return curve.zero_at_zero() if added.acts_on in _SLIPS else curve  # nothing slips at rest
-    return smooth_curve(low, high, PLACES)
+    return ranges.in_detail(smooth_curve(low, high, PLACES))
 
 
 def _hysteresis(added: Added, ranges: LogRanges) -> SmoothCurve:

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from free_forms import LEVEL, covered, family_of
+from free_forms import CURVE, LEVEL, covered, family_of
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families import families_of
@@ -21,12 +21,24 @@ def test_coordinates_start_at_zero_with_a_prior_of_their_size():
     assert len(coordinates_of(smooth_curve(0.0, 1.0, 8))) == 8
 
 
+def test_the_detail_of_a_curve_comes_last_and_is_not_fine():
+    """Fine coordinates are left out of first fits: those of the rest that hardly change the curve."""
+    usual, finer = (coordinates_of(curve) for curve in (CURVE, CURVE.finer))
+    assert [p.fine for p in finer[: len(usual)]] == [p.fine for p in usual]
+    assert any(p.fine for p in usual)
+    detail = finer[len(usual) :]
+    assert [kind_of(p) for p in detail] == ["detail"] * 7
+    assert not any(p.fine for p in detail)
+
+
 def test_a_parameter_that_is_no_coordinate_has_no_kind():
-    assert [kind_of(p) for p in (*coordinates(1, 1), LEVEL)] == ["straight", "rest", ""]
+    kinds = [kind_of(p) for p in (*coordinates(1, 1, detail=2), LEVEL)]
+    assert kinds == ["straight", "rest", "detail", "detail", ""]
 
 
 def test_other_priors_are_those_of_the_coordinates_alone():
-    family = family_of(parameters=[LEVEL, *coordinates(1, 2)]).with_prior(3.0, 0.2)
+    family = family_of(parameters=[LEVEL, *coordinates(1, 2)])
+    family = family.with_prior({"straight": 3.0, "rest": 0.2})
     assert [p.prior_sigma for p in family.effect.parameters] == [math.inf, 3.0, 0.2, 0.2]
 
 

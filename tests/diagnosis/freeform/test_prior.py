@@ -20,7 +20,8 @@ def readings_of(tau, slope, rng):
 
 def test_the_covariance_is_that_of_ridge_regression():
     rng = np.random.default_rng(1)
-    family = family_of(parameters=coordinates(1, 3)).with_prior(2.0, 0.5)
+    family = family_of(parameters=coordinates(1, 3))
+    family = family.with_prior({"straight": 2.0, "rest": 0.5})
     slopes = [rng.normal(size=(30, 4)) for _ in range(3)]
     fit = linear_fit(family, slopes, [np.zeros(30)] * 3)
     for without in (None, 1):

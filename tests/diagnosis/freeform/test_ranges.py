@@ -1,9 +1,11 @@
 """What a log covers, and what is missing of it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, turns
-from free_forms import DAMPING, covered, covered_by, one_trial
+from free_forms import CURVE, DAMPING, covered, covered_by, one_trial
 
 from diagnosis.freeform.ranges import LEAST_PAST_S, LONGEST_PAST_S, ranges_of, values_of
 from diagnosis.replay.variables import Variable
@@ -70,3 +72,11 @@ def test_the_shaft_slips_fastest_where_it_enters():
     assert base == pytest.approx(np.radians(np.abs(np.diff(ANGLE)).max()) / 0.01, rel=0.05)
     twisted = 1.0 - 0.5 * free_mm / 100.0
     assert ranges_of(problem, nominal).fastest_slip_rad_s == pytest.approx(twisted * base, rel=1e-3)
+
+
+def test_curves_are_finer_only_where_laws_are_detailed():
+    angle = turns(6.0)
+    ranges = covered(angle, tip=angle)
+    assert ranges.in_detail(CURVE) is CURVE
+    finer = replace(ranges, detailed=True).in_detail(CURVE)
+    assert finer.places.size == 2 * CURVE.places.size - 1

@@ -47,11 +47,11 @@ def fitted(monkeypatch):
             "on_coarser_needle": lambda coarse, _: coarse,
             "first_fit": lambda _, __, family: made(first, FreeFit(family=family, fit=None)),
             "full_fit": lambda _, one, *enough: made(ended, one, *enough),
-            "growing": lambda _, laws, *__: [
+            "richer": lambda _, laws, *__, growing: [
                 made(ended, replace(law, family=family_of(parameters=[LEVEL], name=name)))
                 for law in laws
                 for name in ended
-                if name.startswith(f"{law.family.name}, growing")
+                if name.startswith(f"{law.family.name}, {'growing' if growing else 'finer'}")
             ],
             "begun_only": lambda _, one, *enough: made(ended, one, *enough),
             "pairs_beside": lambda _, __, ___, laws, names, ____: [
@@ -177,6 +177,30 @@ def test_a_law_that_grows_is_tried_before_two_laws_are(fitted):
     assert ("a", ("b",), False) not in seen
     found = run(alone, {**alone, grown: 1.5, "a + b": 1.0})
     assert found[0].names == ("a", "b")
+
+
+def test_a_finer_curve_takes_the_place_of_the_usual_one_where_it_leaves_less(fitted):
+    """Also where the gap is closed; a law that grows is tried only where it is not."""
+    run, seen = fitted
+    gaps = {"a": 1.05, "b": 1.06, "a, finer": 0.9, "a, growing with time": 0.8}
+    found = run({"a": 1.05, "b": 1.06}, gaps)
+    assert [f.family.name for f in found if f.final] == ["a, finer", "a", "b"]
+    assert not any("growing" in name for name, _, _ in seen)
+    run({"a": 1.0, "b": 1.5}, {"a": 1.0, "b": 1.5, "b, finer": 0.9})
+    assert not any(name == "b, finer" for name, _, _ in seen)  # its law is far behind the best
+
+
+def test_of_a_law_and_its_finer_curve_which_have_one_name_the_better_goes_on(monkeypatch):
+    family = family_of(parameters=[LEVEL], name="a")
+    worse, better = (
+        FreeFit(
+            family=family, fit=linear_fit(family, [np.zeros((100, 1))], [np.full(100, gap)], x=[0.0])
+        )
+        for gap in (1.0, 0.9)
+    )
+    for usual, finer in ((worse, better), (better, worse)):
+        monkeypatch.setattr(search, "richer", lambda *_, finer=finer, **__: [finer])
+        assert search._richer(None, [], [usual], None, None) == [better]
 
 
 def test_of_one_leading_law_no_more_than_a_few_go_to_the_log_itself(fitted):

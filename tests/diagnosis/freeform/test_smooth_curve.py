@@ -198,3 +198,40 @@ def test_a_curve_that_is_zero_at_zero_has_no_constant_and_keeps_its_slopes(made)
 def test_a_curve_that_does_not_reach_zero_stays():
     curve = smooth_curve(1.0, 3.0)
     assert curve.zero_at_zero() is curve
+
+
+FINER = [
+    smooth_curve(2.0, 10.0, COUNT),
+    bent_curve(-3.0, 5.0, COUNT, close=True),
+    periodic_curve(360.0),
+]
+
+
+@pytest.mark.parametrize("curve", FINER)
+def test_a_finer_curve_begins_as_the_curve_that_it_refines(curve):
+    """Straight between the places of that, over its period if there is one."""
+    own = np.random.default_rng(3).normal(size=curve.size)
+    values = curve.finer.values([*own, *np.zeros(curve.finer.detail)])
+    period = curve.period or None
+    expected = np.interp(curve.finer.places, curve.places, curve.values(own), period=period)
+    np.testing.assert_allclose(values, expected, atol=1e-12)
+    assert (curve.finer.straight, curve.finer.period) == (curve.straight, curve.period)
+
+
+@pytest.mark.parametrize("curve", FINER)
+def test_each_detail_of_a_finer_curve_is_halfway_between_two_places(curve):
+    finer = curve.finer
+    detail = finer.basis[:, -finer.detail :]
+    np.testing.assert_array_equal(detail.T @ detail, np.eye(finer.detail))
+    at = finer.places[detail.argmax(axis=0)]
+    ends = [*curve.places, curve.period] if curve.period else curve.places
+    np.testing.assert_allclose(at, 0.5 * (np.array(ends)[1:] + np.array(ends)[:-1]))
+    assert set(curve.places) <= set(finer.places)
+
+
+def test_a_finer_curve_that_is_zero_at_zero_keeps_its_detail():
+    finer = bent_curve(-3.0, 5.0, COUNT).finer
+    held = finer.zero_at_zero()
+    assert held.detail == finer.detail == COUNT - 1
+    own = np.random.default_rng(4).normal(size=held.size)
+    assert np.interp(0.0, held.places, held.values(own)) == pytest.approx(0.0, abs=1e-12)

@@ -132,7 +132,7 @@ def test_the_law_is_in_every_layer_and_further_laws_beside():
 
 
 def test_a_curve_over_the_rate_is_in_the_tissue():
-    factors = tuple(1.0 - 0.05 * i for i in range(RATE_POINTS))
+    factors = tuple(1.0 - 0.04 * i for i in range(RATE_POINTS))
     law = FreeLaw(rate_curve=factors, rate_range_rad_s=(0.02, 3.0))
     (layer,) = law.tissue(Tissue(layers=(Layer(interface=LAYER),))).layers
     assert (layer.interface.rate_curve, layer.interface.rate_range_rad_s) == (factors, (0.02, 3.0))

@@ -18,7 +18,7 @@ from diagnosis.freeform.families.interface import (
     WAVES,
     curve_over,
 )
-from diagnosis.freeform.families.over_rate.friction import rates_of
+from diagnosis.freeform.families.over_rate.friction import PLACES, rates_of
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, periodic_curve, smooth_curve
@@ -26,7 +26,7 @@ from diagnosis.replay.curve import ActsOn
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
-from models.tissue import RATE_POINTS, Interface
+from models.tissue import Interface
 
 AT_TIP_MM = 30.0  # of shaft, whose dry friction is as strong as one may start with at the tip
 TORQUE_OVER = (Variable.TIME, Variable.AXIAL_SPEED, Variable.DEPTH)
@@ -80,7 +80,7 @@ def _apply_held(rig: RigParameters, level: float, twist_deg: float) -> RigParame
 
 def _tip_rate(ranges: LogRanges) -> Family:
     dry, rates = _dry(ranges), rates_of(ranges)
-    curve = smooth_curve(0.0, 1.0, RATE_POINTS)
+    curve = ranges.in_detail(smooth_curve(0.0, 1.0, PLACES))
     neutral = (0.0,) * len(dry.start)
     return Family(
         effect=Effect(
@@ -113,7 +113,7 @@ def _at_rates(
     side: float,
     *c: float,
 ) -> Points:
-    places = np.log(np.geomspace(*rates, RATE_POINTS))
+    places = np.log(np.geomspace(*rates, curve.places.size))
     at = np.interp(np.log(np.abs(_SHOWN_RAD_S)), places, curve.values(c))
     own = damping * np.exp(at) * _SHOWN_RAD_S + level * np.sign(_SHOWN_RAD_S)
     return _SHOWN_RAD_S, own * (1 + side * np.sign(_SHOWN_RAD_S))

@@ -14,8 +14,9 @@ from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
-from models.tissue import RATE_POINTS, Interface
+from models.tissue import Interface
 
+PLACES = 12
 SLOWEST, FASTEST = 0.003, 1.25  # ends of a curve over rate, in the fastest slip of the nominal shaft
 
 
@@ -80,7 +81,7 @@ def damping_over_rate(
 
 def _friction_over_rate(ranges: LogRanges) -> Family:
     rates = rates_of(ranges)
-    curve = smooth_curve(0.0, 1.0, RATE_POINTS)
+    curve = ranges.in_detail(smooth_curve(0.0, 1.0, PLACES))
     beta = ranges.damping_n_mm_s_per_mm
 
     return Family(
@@ -107,14 +108,14 @@ def _power_law(
     curve: SmoothCurve, rates: tuple[float, float], level: float, exponent: float, plateau: float
 ) -> tuple[float, ...]:
     """The least dry friction, and the coordinates of a power law that is viscous below its plateau."""
-    at = np.geomspace(*rates, RATE_POINTS)
+    at = np.geomspace(*rates, curve.places.size)
     return level, *curve.coordinates(0.5 * (exponent - 1.0) * np.log(at**2 + plateau**2))
 
 
 def _friction(
     curve: SmoothCurve, rates: tuple[float, float], beta: float, level: float, *c: float
 ) -> Points:
-    at = np.geomspace(*rates, RATE_POINTS)
+    at = np.geomspace(*rates, curve.places.size)
     return at, level + beta * at * np.exp(curve.values(c))
 
 

@@ -27,7 +27,7 @@ def row(interpreted):
 
 
 @pytest.mark.parametrize(
-    ("log_rate", "log_factor"), [(-2.0, 0.0), (0.0, 0.0), (2.5, 0.25), (11.0, 1.1), (14.0, 1.1)]
+    ("log_rate", "log_factor"), [(-2.0, 0.0), (0.0, 0.0), (2.5, 0.25), (22.0, 2.2), (25.0, 2.2)]
 )
 def test_a_curve_over_the_rate_is_straight_between_places_and_level_beyond(
     curves, row, log_rate, log_factor
@@ -35,7 +35,7 @@ def test_a_curve_over_the_rate_is_straight_between_places_and_level_beyond(
     for sign in (1, -1):
         factor, rise = curves.rate_factor(sign * 0.01 * math.exp(log_rate), row)
         assert math.log(factor) == pytest.approx(log_factor)
-        assert rise == pytest.approx(0.1 if 0 < log_rate < 11 else 0.0)
+        assert rise == pytest.approx(0.1 if 0 < log_rate < 22 else 0.0)
 
 
 @pytest.mark.parametrize(("u", "log_factor"), [(0.0, 0.0), (0.75, -0.3), (4.0, -1.6), (7.0, -1.6)])

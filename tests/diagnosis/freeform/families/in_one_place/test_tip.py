@@ -6,12 +6,12 @@ from free_forms import covered, same_readings
 
 from diagnosis.effects import LIBRARY
 from diagnosis.freeform.families.in_one_place.tip import families
+from diagnosis.freeform.families.over_rate.friction import PLACES
 from diagnosis.replay.rig_parameters import NOMINAL
-from models.tissue import RATE_POINTS
 
 ANGLE = turns(6.0)
 FAMILIES = {family.name: family for family in families(covered(ANGLE, tip=ANGLE))}
-RATE, FLAT = "tip torque over rate", (0.0,) * RATE_POINTS
+RATE, FLAT = "tip torque over rate", (0.0,) * PLACES
 
 
 def rig_of(name, *values):
@@ -34,7 +34,7 @@ def test_drag_at_the_tip_may_depend_on_the_rate():
     """With a curve that is straight over log rate: a power of the rate."""
     family = FAMILIES[RATE]
     law = family.effect.apply(NOMINAL, 0.2, 1e-12, 0.0, 0.0, 0.7, *FLAT[2:]).free.at_tip[0]
-    places = np.geomspace(*law.rate_range_rad_s, RATE_POINTS)
+    places = np.geomspace(*law.rate_range_rad_s, PLACES)
     power = 1.4 / np.log(places[-1] / places[0])
     middle = np.sqrt(places[0] * places[-1])
     np.testing.assert_allclose(law.rate_curve, (places / middle) ** power)

@@ -1,14 +1,15 @@
 """Friction over the rate: where it becomes an effect of the library, it is that."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosis_fixtures import turns
 from free_forms import DAMPING, covered, same_readings
 
 from diagnosis.effects import LIBRARY
-from diagnosis.freeform.families.over_rate.friction import at_one_rate, families, rates_of
+from diagnosis.freeform.families.over_rate.friction import PLACES, at_one_rate, families, rates_of
 from diagnosis.replay.rig_parameters import NOMINAL
-from models.tissue import RATE_POINTS
 
 ANGLE = turns(6.0)
 RANGES = covered(ANGLE, tip=ANGLE)
@@ -19,7 +20,7 @@ THICK = LIBRARY["damping_error"].apply(NOMINAL, SCALE)
 
 
 def rig_of(level, straight=0.0):
-    return FAMILY.effect.apply(NOMINAL, level, straight, *[0.0] * (RATE_POINTS - 1))
+    return FAMILY.effect.apply(NOMINAL, level, straight, *[0.0] * (PLACES - 1))
 
 
 def test_friction_is_dry_and_viscous_where_its_curve_is_level():
@@ -28,9 +29,21 @@ def test_friction_is_dry_and_viscous_where_its_curve_is_level():
 
 
 def test_the_curve_is_the_torque_of_a_mm_of_shaft():
-    rates, torque = FAMILY.curve(LEVEL, *[0.0] * RATE_POINTS)
+    rates, torque = FAMILY.curve(LEVEL, *[0.0] * PLACES)
     np.testing.assert_allclose(torque, LEVEL + DAMPING * np.asarray(rates))
     np.testing.assert_allclose((rates[0], rates[-1]), rates_of(RANGES))
+
+
+def test_a_detailed_curve_is_the_same_friction_where_its_detail_is_none():
+    """The kernel runs straight between the logarithms of factors, and so does a finer curve."""
+    (finer,) = families(replace(RANGES, detailed=True))
+    own = np.random.default_rng(5).normal(0.0, 0.3, PLACES)
+    detail = len(finer.effect.parameters) - len(FAMILY.effect.parameters)
+    assert detail == PLACES - 1
+    rig = finer.effect.apply(NOMINAL, LEVEL, *own, *[0.0] * detail)
+    assert same_readings(ANGLE, rig, FAMILY.effect.apply(NOMINAL, LEVEL, *own))
+    rig = finer.effect.apply(NOMINAL, LEVEL, *own, *[0.3] * detail)
+    assert not same_readings(ANGLE, rig, FAMILY.effect.apply(NOMINAL, LEVEL, *own))
 
 
 def test_rates_reach_beyond_the_fastest_slip_of_the_nominal_shaft():

@@ -1,4 +1,4 @@
-"""Which law grows with what: found by its slopes, then fitted."""
+"""Which law grows with what, or needs a finer curve: found by its slopes, then fitted."""
 
 from dataclasses import replace
 
@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import coarse_of, log_of
 
+from diagnosis.criteria.freeform import CLOSED_GAP
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.freeform.families.readings import families
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
-from diagnosis.freeform.fits.growing_laws import GROWN_OF_ONE, growing, score_of_growing, start_of
 from diagnosis.freeform.fits.growth_factor import all_grown, grown_over
+from diagnosis.freeform.fits.richer_laws import RICHER_OF_ONE, richer, score_of_richer, start_of
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.curve import ActsOn, Course, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -50,8 +51,8 @@ def grown():
 def test_a_law_that_grows_in_time_is_promised_most_and_fitted_to_the_noise(grown):
     coarse, ranges, law, true_gap = grown
     assert law.fit.gap > 2.0 * true_gap
-    found = growing(coarse, [law], ranges, Workers())
-    assert len(found) == GROWN_OF_ONE
+    found = richer(coarse, [law], ranges, Workers(), growing=True)
+    assert len(found) == RICHER_OF_ONE
     best = min(found, key=lambda f: f.score)
     assert best.family.name == f"{NAME}, growing with time"
     assert best.fit.gap < 1.02 * true_gap
@@ -66,7 +67,7 @@ def test_a_law_that_grows_in_time_is_promised_most_and_fitted_to_the_noise(grown
 
 def test_growing_promises_more_than_the_law_leaves_alone(grown):
     coarse, ranges, law, _ = grown
-    promised = {f.name: score_of_growing(coarse, law, f) for f in all_grown(law.family, ranges)}
+    promised = {f.name: score_of_richer(coarse, law, f) for f in all_grown(law.family, ranges)}
     assert min(promised, key=promised.get) == f"{NAME}, growing with time"
     assert min(promised.values()) < law.score
 
@@ -86,4 +87,35 @@ def test_what_may_not_grow_is_left_out(grown):
     again = grown_over(law.family, Variable.TIME, 0.0, END_S)
     fit = fit_effects(with_family(coarse, again), (again.name,), start_of(coarse, law, again))
     twice = FreeFit(family=again, fit=fit, gap_after=fit.gap)
-    assert growing(coarse, [twice], ranges, Workers()) == []
+    assert richer(coarse, [twice], ranges, Workers(), growing=True) == []
+
+
+def with_a_bump(width_deg):
+    """A coarse problem whose tip reads up to 4 deg more about one angle, its ranges, and the fit of an
+    error over the angle."""
+    at = np.linspace(-200.0, 200.0, 401)
+    bump = Curve(
+        acts_on=ActsOn.TIP_READING,
+        variable=Variable.TIP_ANGLE,
+        places=tuple(at),
+        values=tuple(4.0 * np.exp(-(((at - 20.0) / width_deg) ** 2) / 2.0)),
+    )
+    coarse = coarse_of(log_of(replace(NOMINAL, free=FreeLaw(curves=(bump,))), seconds=END_S))
+    ranges = ranges_of(coarse, replay(coarse.log, resolution=coarse.resolution))
+    family = {f.name: f for f in families(ranges)}["tip reading over tip_angle"]
+    fit = fit_effects(with_family(coarse, family), (family.name,))
+    return coarse, ranges, FreeFit(family=family, fit=fit, gap_after=fit.gap)
+
+
+def test_a_narrow_bump_takes_a_finer_curve():
+    coarse, ranges, law = with_a_bump(width_deg=9.0)
+    (found,) = richer(coarse, [law], ranges, Workers(), growing=False)
+    assert found.family.name == law.family.name
+    assert found.fit.gap < CLOSED_GAP < 0.9 * law.fit.gap
+    assert found.score < law.score
+
+
+def test_a_wide_bump_does_not():
+    coarse, ranges, law = with_a_bump(width_deg=40.0)
+    assert law.fit.gap < CLOSED_GAP
+    assert richer(coarse, [law], ranges, Workers(), growing=False) == []
