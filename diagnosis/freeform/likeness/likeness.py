@@ -142,7 +142,8 @@ def _fitted(shape: Shape, x: Array, y: Array, half: Array) -> tuple[Array, float
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore", OptimizeWarning)
-            values, _ = curve_fit(shape.law, x, y, start, half, maxfev=_MOST_EVALUATIONS)
+            bounds = (shape.low or -np.inf, np.inf)
+            values, _ = curve_fit(shape.law, x, y, start, half, bounds=bounds, maxfev=_MOST_EVALUATIONS)
     except RuntimeError:
         return None
     left = (y - shape.law(x, *values)) / half

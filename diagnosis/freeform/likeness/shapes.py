@@ -28,12 +28,14 @@ class Shape:
       says: the law in words, with values of the parameters in braces, by position.
       law: y from x and the parameters.
       start: starting values of the parameters, from x and y.
+      low: least values of the parameters; empty: they may be any.
     """
 
     name: str
     says: str
     law: Callable[..., Array]
     start: Callable[[Array, Array], tuple[float, ...]]
+    low: tuple[float, ...] = ()
 
 
 def _constant(x: Array, a: float) -> Array:
@@ -89,6 +91,10 @@ def _slope(x: Array, y: Array) -> float:
     return float((y[-1] - y[0]) / (x[-1] - x[0]))
 
 
+def _middle(x: Array) -> float:
+    return float(abs(x[len(x) // 2]))
+
+
 def _largest_jump(x: Array, y: Array) -> float:
     """The x at which y changes most from one point to the next."""
     i = int(np.argmax(np.abs(np.diff(y))))
@@ -121,7 +127,8 @@ _STRIBECK = Shape(
     name="Stribeck friction",
     says="dry friction of {0:.3g}, {1:.3g} more at rest, over a rate of {2:.3g} rad/s",
     law=_stribeck,
-    start=lambda x, y: (float(y[0]), 0.3 * float(y[0]), float(x[len(x) // 2]), _slope(x, y)),
+    start=lambda x, y: (*(share * float(abs(y[0])) for share in (1.0, 0.3)), _middle(x), _slope(x, y)),
+    low=(0.0, 0.0, 0.0, -np.inf),
 )
 OF_RATE = (_DRY_AND_VISCOUS, _POWER, _STRIBECK)
 OF_ANY = (

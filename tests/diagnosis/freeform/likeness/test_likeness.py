@@ -95,6 +95,13 @@ def test_a_plain_law_is_recognised_with_its_parameters(shape, variable, x, law, 
     assert not (np.abs(np.array(told) - 1.3 * np.array(parameters)) < 5 * errors).all()
 
 
+def test_friction_that_is_less_at_rest_is_no_stribeck_friction():
+    """It is that with numbers that no friction has, as near as may be."""
+    clean = 1.0 - 0.8 * np.exp(-((RATES / 0.1) ** 2)) + 0.2 * RATES
+    like = likeness_of(curve(RATES, clean, 0.06, variable="rate"))
+    assert like is None or like.shape != "Stribeck friction"
+
+
 @pytest.mark.parametrize(("x", "at"), [(PLACES, 0.5), (TIMES, 2.2), (TIMES, 8.0)])
 def test_a_step_is_found_between_the_points_where_it_is(x, at):
     variable = "position" if x is PLACES else "time"
