@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import CubicSpline
 
 from diagnosis.replay.curve import FACTORS, ActsOn, Curve
 from diagnosis.replay.variables import Variable
@@ -68,18 +69,23 @@ class SmoothCurve:
 
     @property
     def finer(self) -> "SmoothCurve":
-        """The curve with places halfway between its own, and the detail there: what it is off straight
-        lines between those.
+        """The curve with places halfway between its own, and a coordinate of its detail at each.
 
-        Its first coordinates are those of the curve as it is, and give the same values.
+        Its first coordinates are those of the curve as it is: with no detail its straight part is the
+        same, and a cubic spline runs through its rest.
         """
-        own = np.append(self.places, self.places[0] + self.period) if self.period else self.places
-        halfway = 0.5 * (own[1:] + own[:-1])
-        places = np.sort(np.append(self.places, halfway))
-        period = self.period or None
-        columns = [np.interp(places, self.places, own, period=period) for own in self.basis.T]
-        columns += [(places == place).astype(float) for place in halfway]
-        return replace(self, places=places, basis=np.stack(columns, axis=1), detail=halfway.size)
+        places, values = self.places, self.basis
+        if self.period:
+            places, values = np.append(places, places[0] + self.period), np.vstack([values, values[:1]])
+        halfway = 0.5 * (places[1:] + places[:-1])
+        own = np.sort(np.append(self.places, halfway))
+        line = [np.interp(own, places, column) for column in values.T[: self.straight]]
+        rest = CubicSpline(
+            places, values[:, self.straight :], bc_type="periodic" if self.period else "not-a-knot"
+        )
+        detail = (own[:, None] == halfway).astype(float)
+        basis = np.hstack([np.stack(line, axis=1), rest(own), detail])
+        return replace(self, places=own, basis=basis, detail=halfway.size)
 
     def zero_at_zero(self) -> "SmoothCurve":
         """The curve less its value where the variable is 0; as it is, if the places do not span 0.

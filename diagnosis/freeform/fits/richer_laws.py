@@ -89,7 +89,7 @@ def score_of_richer(coarse: FitProblem, law: FreeFit, family: Family) -> float:
     parameterization = problem.parameterization((family.name,))
     start = start_of(coarse, law, family)
     new = np.arange(len(law.family.effect.parameters), len(family.effect.parameters))
-    rigs = [parameterization.rig(start + _STEP * one) for one in np.eye(start.size)[new]]
-    each = zip(problem.residuals(rigs, callback_alone=True), law.fit.by_trial, strict=True)
-    slopes = np.concatenate([(np.stack(own, axis=1) - was[:, None]) / _STEP for own, was in each])
+    rigs = [parameterization.rig(x) for x in (start, *(start + _STEP * np.eye(start.size)[new]))]
+    each = [np.stack(own, axis=1) for own in problem.residuals(rigs, callback_alone=True)]
+    slopes = np.concatenate([(own[:, 1:] - own[:, :1]) / _STEP for own in each])
     return predicted_score(law.fit, slopes, parameterization.weights[new])

@@ -208,14 +208,29 @@ FINER = [
 
 
 @pytest.mark.parametrize("curve", FINER)
-def test_a_finer_curve_begins_as_the_curve_that_it_refines(curve):
-    """Straight between the places of that, over its period if there is one."""
-    own = np.random.default_rng(3).normal(size=curve.size)
+def test_a_finer_curve_without_detail_goes_through_the_places_of_the_curve_as_it_is(curve):
+    finer, own = curve.finer, np.random.default_rng(3).normal(size=curve.size)
+    values = np.array(finer.values([*own, *np.zeros(finer.detail)]))
+    np.testing.assert_allclose(
+        values[np.isin(finer.places, curve.places)], curve.values(own), atol=1e-12
+    )
+    assert (finer.straight, finer.period) == (curve.straight, curve.period)
+
+
+@pytest.mark.parametrize("curve", FINER)
+def test_halfway_the_straight_part_of_a_finer_curve_is_straight(curve):
+    finer, straight = curve.finer, np.zeros(curve.size)
+    straight[: curve.straight] = 0.5, *np.ones(curve.straight - 1)
+    line = np.interp(finer.places, curve.places, curve.values(straight), period=curve.period or None)
+    np.testing.assert_allclose(finer.values([*straight, *np.zeros(finer.detail)]), line, atol=1e-12)
+
+
+def test_halfway_a_sine_stays_a_sine():
+    curve = periodic_curve(360.0)
+    own = curve.coordinates(np.sin(np.radians(curve.places)))
     values = curve.finer.values([*own, *np.zeros(curve.finer.detail)])
-    period = curve.period or None
-    expected = np.interp(curve.finer.places, curve.places, curve.values(own), period=period)
-    np.testing.assert_allclose(values, expected, atol=1e-12)
-    assert (curve.finer.straight, curve.finer.period) == (curve.straight, curve.period)
+    error = 5.0 / 384.0 * np.radians(30.0) ** 4  # of a cubic spline, times a fourth derivative of 1
+    np.testing.assert_allclose(values, np.sin(np.radians(curve.finer.places)), atol=error)
 
 
 @pytest.mark.parametrize("curve", FINER)
