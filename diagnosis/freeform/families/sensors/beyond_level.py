@@ -7,87 +7,50 @@ With a gain of 0 it clips. A smooth curve of the true value has no such corner. 
 levels at which jump and gain, by linear least squares, leave least of the nominal residual.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.readings import SENSOR
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.log.trial import TIP, TORQUE
-from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.freeform.sensor_levels import (
+    MOST,
+    Reading,
+    jump_parameter,
+    largest_of,
+    level_parameter,
+    levels_found,
+    read_over_levels,
+)
+from diagnosis.replay.curve import Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.replay.variables import SAYS, UNITS, Variable
+from diagnosis.replay.variables import SAYS, UNITS
 
-_LEAST, _MOST = 0.05, 1.0  # level, of the largest value
-_TRIED, _STARTS = 40, 4  # levels
+Array = NDArray[np.float64]
+
 _GAINS = (-1.0, 5.0)
 _CLIPS = (0.92, 0.0, 0.0)  # level, gain and jump of a start where nothing is found
 _FAR, _CORNER = 3.0, 0.005  # in the largest value
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Reading:
-    """What a sensor reads: its column, what its curve acts on and over, and words."""
-
-    sensor: str
-    acts_on: ActsOn
-    variable: Variable
-    words: str
-    unit: str
-
-
-_READINGS = (
-    _Reading(
-        sensor=TORQUE,
-        acts_on=ActsOn.TORQUE_READING,
-        variable=Variable.TORQUE,
-        words="torque sensor",
-        unit="N mm",
-    ),
-    _Reading(
-        sensor=TIP,
-        acts_on=ActsOn.TIP_READING,
-        variable=Variable.TIP_ANGLE,
-        words="tip sensor",
-        unit="deg",
-    ),
-)
-
-
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """That of each sensor that was read, and whose true values have ends."""
-    return tuple(
-        _beyond(own, ranges)
-        for own in _READINGS
-        if own.sensor in ranges.missing and own.variable in ranges.ends
-    )
+    return tuple(_beyond(own, ranges) for own in read_over_levels(ranges))
 
 
-def _beyond(reading: _Reading, ranges: LogRanges) -> Family:
-    largest = max(abs(end) for end in ranges.ends[reading.variable])
-    size = ranges.missing[reading.sensor]
-    levels, gains, jumps = zip(*_found(reading, ranges, largest), strict=True)
-    level = Parameter(
-        name="level",
-        unit=reading.unit,
-        low=_LEAST * largest,
-        high=_MOST * largest,
-        start=levels,
-        logarithmic=True,
-        neutral=None,
-    )
+def _beyond(reading: Reading, ranges: LogRanges) -> Family:
+    largest = largest_of(reading, ranges)
+    levels, gains, jumps = zip(*_starts(reading, ranges, largest), strict=True)
     gain = Parameter(name="gain", unit="-", low=_GAINS[0], high=_GAINS[1], start=gains, neutral=1.0)
-    jump = Parameter(
-        name="jump",
-        unit=reading.unit,
-        low=-_MOST * largest,
-        high=_MOST * largest,
-        start=jumps,
-        scale=size,
+    parameters = (
+        level_parameter(reading, largest, levels),
+        gain,
+        jump_parameter(reading, ranges, largest, jumps),
     )
     name = f"{reading.acts_on.replace('_', ' ')} over {reading.variable}, beyond a level"
     return Family(
@@ -95,7 +58,7 @@ def _beyond(reading: _Reading, ranges: LogRanges) -> Family:
             name=name,
             title=f"{reading.words} that reads otherwise beyond a level",
             place=Place.SENSOR,
-            parameters=(level, gain, jump),
+            parameters=parameters,
             apply=partial(_apply, reading, largest),
             differences=(1e-2, 1e-3),
         ),
@@ -108,30 +71,21 @@ def _beyond(reading: _Reading, ranges: LogRanges) -> Family:
     )
 
 
-def _found(
-    reading: _Reading, ranges: LogRanges, largest: float
+def _starts(
+    reading: Reading, ranges: LogRanges, largest: float
 ) -> tuple[tuple[float, float, float], ...]:
-    """Level, gain and jump that leave least of the nominal residual, best first."""
-    read = [
-        own[reading.sensor]
-        for trial, own in zip(ranges.problem.log.trials, ranges.nominal, strict=True)
-        if trial.has(reading.sensor)
-    ]
-    true, left = np.concatenate(read), np.concatenate(ranges.left[reading.sensor])
-    true, left = true[np.isfinite(left)], left[np.isfinite(left)]
-    size, error = np.abs(true), left * np.sign(true)
-    tried = []
-    for level in np.geomspace(_LEAST, _MOST, _TRIED)[:-1] * largest:
-        beyond = size > level
-        if beyond.any():
-            columns = np.stack([np.ones(beyond.sum()), size[beyond] - level], axis=1)
-            (jump, slope), *_ = np.linalg.lstsq(columns, error[beyond])
-            taken_off = float(error[beyond] @ columns @ (jump, slope))
-            tried.append((taken_off, float(level), float(np.clip(1.0 + slope, *_GAINS)), float(jump)))
-    best = sorted(tried, reverse=True)[:_STARTS]
-    most = _MOST * largest
-    starts = tuple((level, gain, float(np.clip(jump, -most, most))) for _, level, gain, jump in best)
+    """Level, gain and jump."""
+    most = MOST * largest
+    starts = tuple(
+        (level, float(np.clip(1.0 + slope, *_GAINS)), float(np.clip(jump, -most, most)))
+        for level, jump, slope in levels_found(reading, ranges, _beyond_a_level)
+    )
     return starts or ((_CLIPS[0] * largest, *_CLIPS[1:]),)
+
+
+def _beyond_a_level(size: Array, level: float) -> Array:
+    beyond = size > level
+    return np.stack([beyond, np.where(beyond, size - level, 0.0)], axis=1)
 
 
 def _error(
@@ -152,7 +106,7 @@ def _error(
 
 
 def _apply(
-    reading: _Reading, largest: float, rig: RigParameters, level: float, gain: float, jump: float
+    reading: Reading, largest: float, rig: RigParameters, level: float, gain: float, jump: float
 ) -> RigParameters:
     places, values = _error(largest, level, gain, jump)
     curve = Curve(acts_on=reading.acts_on, variable=reading.variable, places=places, values=values)
