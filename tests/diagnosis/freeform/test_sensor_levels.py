@@ -1,26 +1,17 @@
-"""Levels at which what a sensor reads changes."""
+"""Laws of a sensor on one side of a level: what they share."""
 
 import numpy as np
 import pytest
 from diagnosis_fixtures import turns
 from free_forms import covered
 
-from diagnosis.freeform.sensor_levels import (
-    jump_parameter,
-    largest_of,
-    level_parameter,
-    levels_found,
-    read_over_levels,
-)
+from diagnosis.freeform.sensor_levels import LevelLaw, odd
 from diagnosis.log.trial import TIP, TORQUE
+from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(6.0)
 PULLED = 0.01 * ANGLE
-
-
-def ranges_with(error):
-    """Ranges of a log whose torque is off by an error."""
-    return covered(ANGLE, tip=ANGLE, torque=PULLED + error, seen=(ANGLE, PULLED))
+LARGEST = np.abs(PULLED).max()
 
 
 def beyond(size, level):
@@ -28,41 +19,71 @@ def beyond(size, level):
     return np.stack([above, np.where(above, size - level, 0.0)], axis=1)
 
 
-def test_only_what_was_read_has_levels():
-    both = ranges_with(0.0)
-    assert [own.sensor for own in read_over_levels(both)] == [TORQUE, TIP]
-    (only,) = read_over_levels(covered(ANGLE, tip=ANGLE + 1.0, seen=(ANGLE, PULLED)))
-    assert only.sensor == TIP
+def law(columns=beyond):
+    """Its error tells its numbers."""
+    return LevelLaw(
+        where="somewhere",
+        columns=columns,
+        error=lambda largest, level, gain, jump: ((level, 2.0 * largest), (gain, jump)),
+        gains=(-1.0, 1.4),
+        start=(0.5, 0.2, -0.1),
+    )
 
 
-def test_the_level_that_leaves_least_comes_first_with_its_coefficients():
-    level, jump, slope = 0.4 * np.abs(PULLED).max(), 0.05, -0.3
+def ranges_with(error):
+    """Ranges of a log whose torque is off by an error."""
+    return covered(ANGLE, tip=ANGLE, torque=PULLED + error, seen=(ANGLE, PULLED))
+
+
+def test_only_what_was_read_has_a_family():
+    both = law().families(ranges_with(0.0))
+    assert [f.name for f in both] == [
+        "torque reading over torque, somewhere",
+        "tip reading over tip_angle, somewhere",
+    ]
+    (only,) = law().families(covered(ANGLE, tip=ANGLE + 1.0, seen=(ANGLE, PULLED)))
+    assert (only.says, only.x_unit, only.unit) == ("tip_angle", "deg", "deg")
+
+
+def test_fits_start_from_the_level_that_leaves_least():
+    level, jump, slope = 0.4 * LARGEST, 0.05, -0.3
     size = np.abs(PULLED)
     error = np.sign(PULLED) * (beyond(size, level) @ (jump, slope))
-    ranges = ranges_with(error)
-    own = read_over_levels(ranges)[0]
-    found = levels_found(own, ranges, beyond)
-    assert found[0][0] == pytest.approx(level, rel=0.08)  # those that are tried are 8 % apart
-    assert found[0][1:] == pytest.approx((jump, slope), abs=0.05)
-    left = [np.sum((error - np.sign(PULLED) * (beyond(size, at) @ both)) ** 2) for at, *both in found]
+    own = law().families(ranges_with(error))[0]
+    starts = list(zip(*(p.start for p in own.effect.parameters), strict=True))
+    assert starts[0][0] == pytest.approx(level, rel=0.08)  # those that are tried are 8 % apart
+    assert starts[0][1:] == pytest.approx((1.0 + slope, jump), abs=0.05)
+    left = [
+        np.sum((error - np.sign(PULLED) * (beyond(size, at) @ (step, gain - 1.0))) ** 2)
+        for at, gain, step in starts
+    ]
     assert left == sorted(left)
 
 
-def test_of_columns_that_are_empty_there_is_no_level():
-    ranges = ranges_with(0.0)
-    own = read_over_levels(ranges)[0]
-    assert levels_found(own, ranges, lambda size, _: np.zeros((size.size, 2))) == []
+def test_where_nothing_is_found_a_fit_starts_as_the_law_says():
+    own = law(lambda size, _: np.zeros((size.size, 2))).families(ranges_with(0.1))[0]
+    found = [p.start for p in own.effect.parameters]
+    np.testing.assert_allclose(np.ravel(found), [0.5 * LARGEST, 0.2, -0.1 * LARGEST], rtol=0.01)
 
 
-def test_parameters_have_the_bounds_of_the_largest_value():
-    ranges = ranges_with(0.1)
-    own = read_over_levels(ranges)[0]
-    largest = largest_of(own, ranges)
-    assert largest == pytest.approx(np.abs(PULLED).max(), rel=0.01)
-    level, jump = (
-        level_parameter(own, largest, (0.1, 0.2)),
-        jump_parameter(own, ranges, largest, (0.0, 0.3)),
-    )
-    assert (level.start, level.high, level.unit) == ((0.1, 0.2), largest, "N mm")
-    assert (jump.start, jump.low, jump.high) == ((0.0, 0.3), -largest, largest)
+def test_no_number_starts_beyond_its_bounds():
+    ranges = ranges_with(0.9 * PULLED)  # a gain of 1.9, which is more than the law may have
+    level, gain, jump = law().families(ranges)[0].effect.parameters
+    assert max(gain.start) == gain.high == 1.4
+    assert level.high == jump.high == -jump.low == pytest.approx(LARGEST, rel=0.01)
+    for p in (level, gain, jump):
+        assert all(p.low <= s <= p.high for s in p.start)
     assert jump.scale == ranges.missing[TORQUE]
+
+
+@pytest.mark.parametrize(("number", "sensor"), [(0, TORQUE), (1, TIP)])
+def test_the_error_is_added_to_the_reading_of_its_sensor(number, sensor):
+    own = law().families(ranges_with(0.0))[number]
+    (curve,) = own.effect.apply(NOMINAL, 0.3, 0.7, 0.1).free.curves
+    assert curve.acts_on == {TORQUE: "torque_reading", TIP: "tip_reading"}[sensor]
+    assert (curve.places[0], curve.values) == (0.3, (0.7, 0.1))
+    assert own.curve(0.3, 0.7, 0.1) == (curve.places, curve.values)
+
+
+def test_odd_values_mirror_those_of_one_side():
+    assert odd((1.0, 2.0)) == (-2.0, -1.0, 1.0, 2.0)

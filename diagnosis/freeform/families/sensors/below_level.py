@@ -4,88 +4,29 @@
               sign (|true value| + jump)                 beyond it
 
 With a gain of 0 it is dead below the level; with a jump of -level as well, it reads what is beyond. A
-smooth curve of the true value has no such corners. Fits start from the levels at which gain and jump,
-by linear least squares, leave least of the nominal residual.
+smooth curve of the true value has no such corners.
 """
-
-from dataclasses import replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.readings import SENSOR
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.sensor_levels import (
-    MOST,
-    Reading,
-    jump_parameter,
-    largest_of,
-    level_parameter,
-    levels_found,
-    read_over_levels,
-)
-from diagnosis.replay.curve import Curve
-from diagnosis.replay.free_law import FreeLaw
-from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.replay.variables import SAYS, UNITS
+from diagnosis.freeform.sensor_levels import LevelLaw, odd
 
 Array = NDArray[np.float64]
 
-_GAINS = (-1.0, 3.0)
-_DEAD = (0.1, 0.0, 0.0)  # level, gain and jump of a start where nothing is found
 _FAR, _CORNER = 3.0, 0.005  # in the largest value
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """That of each sensor that was read, and whose true values have ends."""
-    return tuple(_below(own, ranges) for own in read_over_levels(ranges))
+    return _BELOW.families(ranges)
 
 
-def _below(reading: Reading, ranges: LogRanges) -> Family:
-    largest = largest_of(reading, ranges)
-    levels, gains, jumps = zip(*_starts(reading, ranges, largest), strict=True)
-    parameters = (
-        level_parameter(reading, largest, levels),
-        Parameter(name="gain", unit="-", low=_GAINS[0], high=_GAINS[1], start=gains, neutral=1.0),
-        jump_parameter(reading, ranges, largest, jumps),
-    )
-    name = f"{reading.acts_on.replace('_', ' ')} over {reading.variable}, below a level"
-    return Family(
-        effect=Effect(
-            name=name,
-            title=f"{reading.words} that reads otherwise below a level",
-            place=Place.SENSOR,
-            parameters=parameters,
-            apply=partial(_apply, reading, largest),
-            differences=(1e-2, 1e-3),
-        ),
-        places=SENSOR,
-        says=SAYS.get(reading.variable, reading.variable),
-        title=f"error of the {reading.words}, which is another below a level",
-        curve=partial(_error, largest),
-        x_unit=UNITS[reading.variable],
-        unit=reading.unit,
-    )
-
-
-def _starts(
-    reading: Reading, ranges: LogRanges, largest: float
-) -> tuple[tuple[float, float, float], ...]:
-    """Level, gain and jump."""
-    most = MOST * largest
-    starts = tuple(
-        (level, float(np.clip(1.0 + slope, *_GAINS)), float(np.clip(jump, -most, most)))
-        for level, slope, jump in levels_found(reading, ranges, _below_a_level)
-    )
-    return starts or ((_DEAD[0] * largest, *_DEAD[1:]),)
-
-
-def _below_a_level(size: Array, level: float) -> Array:
+def _columns(size: Array, level: float) -> Array:
     below = size <= level
-    return np.stack([np.where(below, size, 0.0), ~below], axis=1)
+    return np.stack([~below, np.where(below, size, 0.0)], axis=1)
 
 
 def _error(
@@ -95,17 +36,13 @@ def _error(
     corner, slope = _CORNER * largest, gain - 1.0
     up = (level - corner, level, level + corner, level + 2.0 * corner, _FAR * largest)
     added = (slope * (level - corner), slope * level, jump, jump, jump)
-    return _odd(up), _odd(added)
+    return odd(up), odd(added)
 
 
-def _odd(up: tuple[float, ...]) -> tuple[float, ...]:
-    """Values on either side of 0, of a curve that is odd."""
-    return (*(-value for value in reversed(up)), 0.0, *up)
-
-
-def _apply(
-    reading: Reading, largest: float, rig: RigParameters, level: float, gain: float, jump: float
-) -> RigParameters:
-    places, values = _error(largest, level, gain, jump)
-    curve = Curve(acts_on=reading.acts_on, variable=reading.variable, places=places, values=values)
-    return replace(rig, free=FreeLaw(curves=(curve,)))
+_BELOW = LevelLaw(
+    where="below a level",
+    columns=_columns,
+    error=_error,
+    gains=(-1.0, 3.0),
+    start=(0.1, 0.0, 0.0),  # it is dead
+)
