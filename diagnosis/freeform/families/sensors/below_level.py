@@ -16,7 +16,7 @@ from diagnosis.freeform.sensor_levels import LevelLaw, odd
 
 Array = NDArray[np.float64]
 
-_FAR, _CORNER = 3.0, 0.005  # in the largest value
+_FAR, _CORNER = 3.0, 0.005  # in the largest value; inside, in the level
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -34,8 +34,9 @@ def _error(
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """The error of the reading, over the true value."""
     corner, slope = _CORNER * largest, gain - 1.0
-    up = (level - corner, level, level + corner, level + 2.0 * corner, _FAR * largest)
-    added = (slope * (level - corner), slope * level, jump, jump, jump)
+    inside = (1.0 - _CORNER) * level
+    up = (inside, level, level + corner, level + 2.0 * corner, _FAR * largest)
+    added = (slope * inside, slope * level, jump, jump, jump)
     return odd(up), odd(added)
 
 

@@ -85,7 +85,8 @@ WRONG = {
     "asymmetry": (of("law", asymmetry=1.5), "law.asymmetry"),
     "yes for a number": (of("law", rate_range_rad_s=[True, 2.0]), "law.rate_range_rad_s.0"),
     "rates upside down": (of("law", rate_range_rad_s=[2.0, 0.1]), "law.rate_range_rad_s"),
-    "too few rates": (of("law", rate_curve=[1.0, 2.0]), "law.rate_curve"),
+    "too few rates": (of("law", rate_curve=[1.0]), "law.rate_curve"),
+    "too many rates": (of("law", rate_curve=[1.0] * 24), "law.rate_curve"),
     "a factor below 0": (of("law", along_depth={"damping": [1.0, -2.0]}), "law.along_depth.damping"),
     "a further law": (
         of("law", "throughout", 0, kinetic_n_mm_per_mm=-1.0),

@@ -34,6 +34,10 @@ def test_what_is_beyond_a_dead_zone_may_be_read_alone():
     np.testing.assert_allclose(found, [-70, -30, 0, 0, 0, 30, 70], atol=1e-9)
 
 
+def test_a_level_may_be_as_small_as_one_likes():
+    np.testing.assert_allclose(read(OF_TIP, np.array([-1.0, 1.0]), 1e-6, 0.0, 0.0), [-1.0, 1.0])
+
+
 def test_with_a_gain_of_1_and_no_jump_it_reads_what_is_true():
     for family in (OF_TORQUE, OF_TIP):
         level, gain, jump = family.effect.parameters
