@@ -23,7 +23,7 @@ from diagnosis.workers import Failure, Task, Workers
 
 Array = NDArray[np.float64]
 
-SCREENING, FITTING = "screening free-form laws that grow", "free-form laws that grow"
+SCREENING, FITTING = "screening richer free-form laws", "richer free-form laws"
 LEADING = 8  # laws that may grow, or be finer
 RICHER, RICHER_OF_ONE = 6, 2  # that are fitted, in all and of one law
 _STEP = 0.05  # of a new coordinate
