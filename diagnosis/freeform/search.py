@@ -2,11 +2,12 @@
 
 Every family is fitted through the simulation: for one iteration on the decimated log with a rougher
 needle, a few where it has few numbers; the most promising for a few more; the best to their end on the
-decimated log, the strength of their prior estimated, alone and, if none closes the gap, beside the
-effects of the library or the other laws that promise most there, and if that is not enough, beside a
-third; the best of these on the log itself, and checked on trials that the fit has not seen. Those whose
-predicted gap is far above the least do not go on. Where all leave far more than noise, there is no third
-law, and fewer go to the log itself, and not to their end.
+decimated log, the strength of their prior estimated, with a finer curve where that promises more, and,
+if none closes the gap, growing with another variable, then beside the effects of the library or the
+other laws that promise most there, and if that is not enough, beside a third; the best of these on the
+log itself, and checked on trials that the fit has not seen. Those whose predicted gap is far above the
+least do not go on. Where all leave far more than noise, there is no third law, and fewer go to the log
+itself, and not to their end.
 """
 
 from collections.abc import Sequence

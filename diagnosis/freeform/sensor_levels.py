@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 Start = tuple[float, float, float]
 """Level, gain and jump."""
 
+CORNER, FAR = 0.005, 3.0
+"""Width of what stands for a jump, and the end of a curve, in the largest value."""
 _LEAST, _MOST = 0.05, 1.0  # level, of the largest value
 _TRIED, _STARTS = 40, 4  # levels
 

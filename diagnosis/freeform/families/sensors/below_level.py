@@ -12,11 +12,9 @@ from numpy.typing import NDArray
 
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.sensor_levels import LevelLaw, odd
+from diagnosis.freeform.sensor_levels import CORNER, FAR, LevelLaw, odd
 
 Array = NDArray[np.float64]
-
-_FAR, _CORNER = 3.0, 0.005  # in the largest value; inside, in the level
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -33,9 +31,9 @@ def _error(
     largest: float, level: float, gain: float, jump: float
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """The error of the reading, over the true value."""
-    corner, slope = _CORNER * largest, gain - 1.0
-    inside = (1.0 - _CORNER) * level
-    up = (inside, level, level + corner, level + 2.0 * corner, _FAR * largest)
+    corner, slope = CORNER * largest, gain - 1.0
+    inside = (1.0 - CORNER) * level
+    up = (inside, level, level + corner, level + 2.0 * corner, FAR * largest)
     added = (slope * inside, slope * level, jump, jump, jump)
     return odd(up), odd(added)
 

@@ -11,11 +11,9 @@ from numpy.typing import NDArray
 
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.sensor_levels import LevelLaw, odd
+from diagnosis.freeform.sensor_levels import CORNER, FAR, LevelLaw, odd
 
 Array = NDArray[np.float64]
-
-_FAR, _CORNER = 3.0, 0.005  # in the largest value
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -32,10 +30,10 @@ def _error(
     largest: float, level: float, gain: float, jump: float
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """The error of the reading, over the true value."""
-    corner, slope = _CORNER * largest, gain - 1.0
+    corner, slope = CORNER * largest, gain - 1.0
     beyond = (level + corner, level + 2.0 * corner, level + largest, level + 2.0 * largest)
-    far = level + _FAR * largest
-    added = (*(jump + slope * (value - level) for value in beyond), jump + slope * _FAR * largest)
+    far = level + FAR * largest
+    added = (*(jump + slope * (value - level) for value in beyond), jump + slope * FAR * largest)
     return odd((level, *beyond, far)), odd((0.0, *added))
 
 

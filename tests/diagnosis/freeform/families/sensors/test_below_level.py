@@ -2,23 +2,14 @@
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import turns
-from free_forms import VOCABULARY, covered, same_readings
+from free_forms import VOCABULARY, same_readings
+from level_logs import ANGLE, RANGES, TORQUE, ranges_with, read
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.sensors.below_level import families
 from diagnosis.replay.rig_parameters import NOMINAL
 
-ANGLE = turns(6.0)
-TORQUE = 0.01 * ANGLE
-RANGES = covered(ANGLE, tip=ANGLE + 1.0, torque=TORQUE, seen=(ANGLE, TORQUE))
 OF_TORQUE, OF_TIP = families(RANGES)
-
-
-def read(family, true, *values):
-    """What a sensor reads of true values."""
-    (curve,) = family.effect.apply(NOMINAL, *values).free.curves
-    return true + curve.at(true)
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
@@ -61,7 +52,7 @@ def test_fits_start_where_the_residual_tells_the_level(gain, jump):
     """Levels that are tried are 8 % apart."""
     level = 0.3 * np.abs(TORQUE).max()
     error = np.where(np.abs(TORQUE) <= level, (gain - 1.0) * TORQUE, np.sign(TORQUE) * jump)
-    own, _ = families(covered(ANGLE, tip=ANGLE, torque=TORQUE + error, seen=(ANGLE, TORQUE)))
+    own, _ = families(ranges_with(error))
     found = [p.start[0] for p in own.effect.parameters]
     assert found[0] == pytest.approx(level, rel=0.08)
     assert found[1:] == pytest.approx([gain, jump], abs=0.1)

@@ -2,23 +2,14 @@
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import turns
-from free_forms import VOCABULARY, covered, same_readings
+from free_forms import VOCABULARY, same_readings
+from level_logs import ANGLE, OF_TIP_ALONE, RANGES, TORQUE, ranges_with, read
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.sensors.beyond_level import families
 from diagnosis.replay.rig_parameters import NOMINAL
 
-ANGLE = turns(6.0)
-TORQUE = 0.01 * ANGLE
-RANGES = covered(ANGLE, tip=ANGLE + 1.0, torque=TORQUE, seen=(ANGLE, TORQUE))
 OF_TORQUE, OF_TIP = families(RANGES)
-
-
-def read(family, true, *values):
-    """What a sensor reads of true values."""
-    (curve,) = family.effect.apply(NOMINAL, *values).free.curves
-    return true + curve.at(true)
 
 
 @pytest.mark.parametrize(("family", "size"), [(OF_TORQUE, 0.01), (OF_TIP, 1.0)], ids=["torque", "tip"])
@@ -56,7 +47,7 @@ def test_the_law_is_one_of_the_sensor_over_what_it_reads():
 
 
 def test_a_sensor_that_was_not_read_has_none():
-    (only,) = families(covered(ANGLE, tip=ANGLE + 1.0, seen=(ANGLE, TORQUE)))
+    (only,) = families(OF_TIP_ALONE)
     assert only.name == OF_TIP.name
 
 
@@ -66,7 +57,7 @@ def test_fits_start_where_the_residual_tells_the_level(gain, jump):
     level = 0.5 * np.abs(TORQUE).max()
     beyond = np.maximum(np.abs(TORQUE) - level, 0.0)
     error = np.sign(TORQUE) * ((gain - 1.0) * beyond + jump * (beyond > 0))
-    own, _ = families(covered(ANGLE, tip=ANGLE, torque=TORQUE + error, seen=(ANGLE, TORQUE)))
+    own, _ = families(ranges_with(error))
     found = [p.start[0] for p in own.effect.parameters]
     assert found[0] == pytest.approx(level, rel=0.08)
     assert found[1:] == pytest.approx([gain, jump], abs=0.1)
