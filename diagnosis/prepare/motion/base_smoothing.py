@@ -11,6 +11,8 @@ While the base rests, seconds are averaged; in a fast turn, hardly anything. Wha
 makes no reversals of its own (diagnosis.prepare.motion.false_reversals).
 """
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import Akima1DInterpolator
@@ -65,7 +67,7 @@ def _longest(raw: Array, sigma: float, order: int, place: float) -> tuple[Array,
         if width > raw.size:
             break
         before = round(place * (width - 1))
-        weights = savgol_coeffs(width, order, pos=before, use="dot")
+        weights = _weights(width, order, before)
         value = np.full(raw.size, np.nan)  # where the window reaches beyond the trial
         value[before : raw.size - (width - 1 - before)] = np.correlate(raw, weights, "valid")
         own = sigma * float(np.linalg.norm(weights))
@@ -76,3 +78,9 @@ def _longest(raw: Array, sigma: float, order: int, place: float) -> tuple[Array,
         open_ &= low <= high
         best, spread = np.where(open_, value, best), np.where(open_, own, spread)
     return best, spread
+
+
+@cache
+def _weights(width: int, order: int, before: int) -> Array:
+    """Of the readings in a window, for the value of its polynomial after so many of them."""
+    return np.asarray(savgol_coeffs(width, order, pos=before, use="dot"))

@@ -7,8 +7,8 @@ With e2 and e4 the largest changes of a prediction by leaving one in two, and th
 
     error with all samples = e2 (e2 / e4),    e2 / e4 from 1 / 16 (smooth) to 1 / 2 (a corner),
 
-since each halving takes off the same share. A sample near a corner has the noise
-sqrt(sigma^2 + error^2), and counts less.
+since each halving takes off the same share. Where half of e2 matters to no sample, e4 is not asked for.
+A sample near a corner has the noise sqrt(sigma^2 + error^2), and counts less.
 """
 
 from collections.abc import Sequence
@@ -30,7 +30,6 @@ from diagnosis.replay.replay import replay
 
 Array = NDArray[np.float64]
 
-_RARER = (2, 4)
 _SMOOTH, _CORNER = 1 / 16, 1 / 2  # share of an error that is left with twice the samples
 _BESIDE = 4  # samples on either side for which an error counts as well
 _LEAST_SAMPLES = 24
@@ -48,11 +47,11 @@ def weighted_by_unsampled_motion(
     Raises:
       SimulationFailed: the nominal rig cannot be simulated with fewer samples.
     """
-    rarer = [[replay(_rarer(log, every, first)) for first in range(every)] for every in _RARER]
-    errors = [
-        _errors_sigma(trial, own, [[run[i] for run in runs] for runs in rarer], noise)
-        for i, (trial, own) in enumerate(zip(log.trials, predictions, strict=True))
-    ]
+    changes = _changes_sigma(log, predictions, noise, every=2)
+    if all(_CORNER * change.max() <= UNSAMPLED_SIGMA for own in changes for change in own.values()):
+        return log, ()
+    rarer = _changes_sigma(log, predictions, noise, every=4)
+    errors = [_errors_sigma(*own) for own in zip(changes, rarer, strict=True)]
     largest = {s: max((float(e[s].max()) for e in errors if s in e), default=0.0) for s in SENSORS}
     rare = {s: size for s, size in largest.items() if size > UNSAMPLED_SIGMA}
     if not rare:
@@ -78,19 +77,32 @@ def _sampled(trial: PreparedTrial, every: int, first: int) -> PreparedTrial:
     return replace(trial, base_motion_deg=np.asarray(Akima1DInterpolator(*finer)(trial.time_s)))
 
 
-def _errors_sigma(
-    trial: PreparedTrial, own: Prediction, rarer: Sequence[Sequence[Prediction]], noise: Noise
-) -> dict[str, Array]:
+def _changes_sigma(
+    log: PreparedLog, predictions: Sequence[Prediction], noise: Noise, *, every: int
+) -> list[dict[str, Array]]:
+    """Largest change near a sample by leaving one in so many, / sigma, by trial and sensor, (N,)."""
+    runs = [replay(_rarer(log, every, first)) for first in range(every)]
+    return [
+        {
+            sensor: _largest_near(np.array([one[sensor] - own[sensor] for one in of_trial]))
+            / noise[sensor]
+            for sensor in SENSORS
+            if trial.has(sensor)
+        }
+        for trial, own, *of_trial in zip(log.trials, predictions, *runs, strict=True)
+    ]
+
+
+def _largest_near(changes: Array) -> Array:
+    return np.asarray(maximum_filter1d(np.abs(changes).max(axis=0), 2 * _BESIDE + 1))
+
+
+def _errors_sigma(with_half: dict[str, Array], with_quarter: dict[str, Array]) -> dict[str, Array]:
     """Error of a prediction with all samples, / sigma, by sensor, (N,)."""
     errors = {}
-    for sensor in (s for s in SENSORS if trial.has(s)):
-        off = [
-            np.max([np.abs(run[sensor] - own[sensor]) for run in runs], axis=0) / noise[sensor]
-            for runs in rarer
-        ]
-        with_half, with_quarter = (maximum_filter1d(e, 2 * _BESIDE + 1) for e in off)
-        left = with_half / np.maximum(with_quarter, _NO_CHANGE)
-        errors[sensor] = np.asarray(with_half * np.clip(left, _SMOOTH, _CORNER))
+    for sensor, change in with_half.items():
+        left = change / np.maximum(with_quarter[sensor], _NO_CHANGE)
+        errors[sensor] = change * np.clip(left, _SMOOTH, _CORNER)
     return errors
 
 

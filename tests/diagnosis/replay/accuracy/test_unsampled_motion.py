@@ -8,6 +8,7 @@ from diagnosis_fixtures import NOISE, RIG, log_with, trial
 
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.prepare.prepare import prepare
+from diagnosis.replay.accuracy import unsampled_motion
 from diagnosis.replay.accuracy.unsampled_motion import weighted_by_unsampled_motion
 from diagnosis.replay.replay import predict, replay
 from diagnosis.replay.rig_parameters import NOMINAL
@@ -75,6 +76,19 @@ def test_where_samples_tell_the_motion_nothing_changes(motion, step):
     weighted, warnings = weighted_by_unsampled_motion(log, replay(log), NOISE)
     assert weighted is log
     assert warnings == ()
+
+
+@pytest.mark.parametrize(("noise", "replays"), [(1.0, 6), (1000.0, 2)])
+def test_where_half_the_samples_do_as_well_a_quarter_is_not_asked_for(noise, replays, monkeypatch):
+    log = log_of(corners, STEP)
+    predictions, made = replay(log), []
+    monkeypatch.setattr(unsampled_motion, "replay", lambda own: made.append(own) or replay(own))
+    weighted_by_unsampled_motion(log, predictions, replace(NOISE, sigma=scaled(NOISE.sigma, noise)))
+    assert len(made) == replays
+
+
+def scaled(sigma, factor):
+    return {sensor: factor * size for sensor, size in sigma.items()}
 
 
 def test_weights_that_are_there_stay():
