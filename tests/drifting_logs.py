@@ -1,7 +1,7 @@
 """Small logs of our own needle, one sensor of which drifts."""
 
 import numpy as np
-from diagnosis_fixtures import RIG, log_of, log_with, prepared, start_of_search, trial, turns
+from diagnosis_fixtures import RIG, joined, log_of, log_with, prepared, start_of_search, trial, turns
 
 from diagnosis.log.trial import TIP, TORQUE, Trial
 from diagnosis.replay.replay import predict
@@ -61,3 +61,16 @@ def moved(*each, sensor=TORQUE):
         (one,) = off(log, sensor, lambda share, ends=ends: np.interp(share, [0, 1], ends)).trials
         trials.append(Trial(name=f"trial_{len(trials) + 1:02d}.csv", table=one.table))
     return log_with(*trials)
+
+
+def settling(trials, sensor):
+    """Nominal rigs; a sensor of each goes from zero to 1.3 sizes in a fifth of a trial, and stays."""
+    each = [
+        off(
+            log_of(NOMINAL, seconds=8.0, seed=seed),
+            sensor,
+            lambda share, rate=8.0 + 2.0 * seed: 1.3 * (1.0 - np.exp(-rate * share)),
+        )
+        for seed in range(trials)
+    ]
+    return joined(*each)

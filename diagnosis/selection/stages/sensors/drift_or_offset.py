@@ -1,10 +1,12 @@
 """A drift of a sensor or an offset of it, which are nearly alike; an offset is an effect of the library.
 
 The best explanation is fitted with and without offset, beside no drift, beside one that begins at zero
-in every trial, and beside one that does not; the least score decides (scoring/drift_evidence). One that
-begins off zero in every trial may hide an offset. What a working sensor does not do (working_sensor) is
-none of them. And a large drift of the tip beside which nothing is missing is no defect beside the
-diagnosis but the diagnosis: the log stays unknown, and the drift is told as the law that is missing.
+in every trial, and beside one that does not; the least score decides (scoring/drift_evidence). An
+offset beside a drift shows where trials begin: if they begin at zero, and a drift alone explains the
+log, it does, whatever the scores. A drift off zero on average may hide an offset. What a working sensor
+does not do (working_sensor) is none of them. And a large drift of the tip beside which nothing is
+missing is no defect beside the diagnosis but the diagnosis: the log stays unknown, and the drift is
+told as the law that is missing.
 """
 
 from dataclasses import replace
@@ -14,10 +16,11 @@ from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, noted
-from diagnosis.selection.scoring.drift_evidence import likeliest_drift, score_beside_drift
+from diagnosis.selection.scoring.drift_evidence import likeliest_drift, score_beside_drift, wide_drifts
 from diagnosis.selection.stages.sensors.working_sensor import (
     OFFSETS,
     allowed_sigma,
+    begins_off_zero,
     drifts,
     is_all_that_is_missing,
     is_off_zero,
@@ -55,10 +58,26 @@ def _drift_or_offset(state: SearchState, sensor: str, workers: Workers) -> Searc
     open_to = [own for own in (state, plain, *working) if own.candidates]
     explaining = [own for own, explained in (one.rechecked() for one in open_to) if explained]
     likeliest = min(explaining, key=_score, default=plain)
+    if drifts(likeliest, sensor) and OFFSETS[sensor] in likeliest.best.names:
+        likeliest = _beginning_at_zero(likeliest, sensor, workers) or likeliest
     if drifts(likeliest, sensor) and (why_not := _objection(plain, likeliest, sensor)):
         return plain.noting(noted(STAGE, Decision.DROPPED, why_not))
     likeliest = likeliest.noting(noted(STAGE, Decision.KEPT, _told(likeliest, sensor)))
     return _without_what_is_hidden(likeliest, sensor)
+
+
+def _beginning_at_zero(state: SearchState, sensor: str, workers: Workers) -> SearchState | None:
+    """The state beside a wide drift without offset, if that explains the log and trials begin at zero.
+
+    Scores are for an offset where drifts go to one side by chance.
+    """
+    for noise in wide_drifts(state.problem, sensor):
+        both = _with_and_without_offset(state, sensor, noise, state.best, workers)
+        without = tuple(c for c in both.candidates if OFFSETS[sensor] not in c.names)
+        found, explained = replace(both, candidates=without).rechecked()
+        if explained and _may_be(found, sensor) and not begins_off_zero(found, sensor):
+            return found
+    return None
 
 
 def _objection(plain: SearchState, drifting: SearchState, sensor: str) -> str:

@@ -140,17 +140,21 @@ def what_is_likelier(state: SearchState, drifting: SearchState, sensor: str) -> 
 
 
 def is_off_zero(state: SearchState, sensor: str) -> bool:
-    """Whether the drift beside the best begins off zero in every trial, or is off it on average.
+    """Whether the drift beside the best begins off zero, or is off it on average over its trials."""
+    problem = state.problem
+    means = means_sigma(problem.log, sensor, problem.noise, _replayed(state))
+    return begins_off_zero(state, sensor) or _is_off(means)
 
-    Of several trials it begins to the same side, or they are off on average where they begin, or in
-    their means: an offset would be the same in all.
+
+def begins_off_zero(state: SearchState, sensor: str) -> bool:
+    """Whether the drift beside the best begins off zero in every trial, or on average.
+
+    Of several trials to the same side in each: an offset would be the same in all.
     """
-    of = state.problem.log, sensor, state.problem.noise, _replayed(state)
-    begun = starts(*of)
+    begun = starts(state.problem.log, sensor, state.problem.noise, _replayed(state))
     to_a_side = begun.size < _SEVERAL or bool(np.ptp(np.sign(begun)) == 0)
-    if begun.size and to_a_side and np.abs(begun).min() > DRIFT_START_SIGMA:
-        return True
-    return _is_off(begun) or _is_off(means_sigma(*of))
+    in_each = bool(begun.size) and to_a_side and bool(np.abs(begun).min() > DRIFT_START_SIGMA)
+    return in_each or _is_off(begun)
 
 
 def _is_off(values: NDArray[np.float64]) -> bool:

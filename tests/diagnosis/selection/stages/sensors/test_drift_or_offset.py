@@ -2,7 +2,7 @@
 
 import pytest
 from diagnosis_fixtures import start_of_search
-from drifting_logs import STAGES, moved, off, sliding
+from drifting_logs import STAGES, moved, off, settling, sliding
 
 from diagnosis.log.trial import SENSORS, TORQUE
 from diagnosis.selection.record import Decision
@@ -52,6 +52,14 @@ def test_a_drift_that_begins_off_zero_in_every_trial_may_hide_an_offset(sensor):
     after = compared(moved((3, 0, 2), (3, 2, 4), sensor=sensor), sensor)
     assert after.best.names == ()
     assert after.open_effects == (OFFSETS[sensor],)
+
+
+def test_a_drift_to_one_side_by_chance_is_no_certain_offset(sensor):
+    """Scores are for an offset of the tip; trials begin at zero."""
+    after = compared(settling(4, sensor), sensor)
+    assert after.best.names == ()
+    assert after.open_effects == (OFFSETS[sensor],)
+    assert [*after.problem.noise.drifts] == [sensor]
 
 
 def followed(log, sensor, course):
