@@ -45,9 +45,9 @@ def test_on_a_straight_motion_wide_windows_count():
 
 
 def test_the_variance_is_that_of_the_readings_times_their_share():
-    """Over 200 draws a variance scatters by sqrt(2 / 200) = 10 %; the choice of windows adds some."""
+    """Over 400 readings a variance scatters by sqrt(2 / 400) = 7 %; the choice of windows adds some."""
     at = slice(100, 300, 20)
-    each = [curve_of(read(lambda t: 100.0 * t, seed)) for seed in range(200)]
+    each = [curve_of(read(lambda t: 100.0 * t, seed)) for seed in range(40)]
     off = np.array([found.angle_deg[at] - 100.0 * TIMES[at] for found in each])
     reading = SCATTER.noise_deg**2 + (100 * SCATTER.jitter_s) ** 2
     told = np.mean([found.own_share[at] for found in each]) * reading
@@ -57,7 +57,7 @@ def test_the_variance_is_that_of_the_readings_times_their_share():
 def test_beside_a_corner_the_curve_is_nearer_than_a_centred_cubic():
     """Which misses it by a tenth of (change of rate) x (width)."""
     near = slice(CORNER - 3, CORNER + 4)
-    off = [curve_of(read(corner, seed)).angle_deg - corner(TIMES) for seed in range(50)]
+    off = [curve_of(read(corner, seed)).angle_deg - corner(TIMES) for seed in range(25)]
     rms = np.sqrt(np.mean(np.square(off)[:, near], axis=0))
     cubic = [np.polyfit(TIMES[i - 5 : i + 6], corner(TIMES[i - 5 : i + 6]), 3) for i in ROWS[near]]
     missed = [np.polyval(c, TIMES[i]) - corner(TIMES[i]) for c, i in zip(cubic, ROWS[near], strict=True)]
