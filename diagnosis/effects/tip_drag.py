@@ -25,6 +25,7 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    other_forms=("damping over position, in one section of the shaft",),
     remedy="add viscous drag of {damping} at the tip to the model",
     check="repeat one fast turn at several depths: drag at the tip does not grow with depth",
 )

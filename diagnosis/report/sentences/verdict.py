@@ -50,10 +50,11 @@ def _verdict(found: Diagnosis) -> str:
         case _:
             near = found.assessment.nearest
             if found.verdict.other_form:
+                several = len(near.effects) > 1
                 return (
                     f"Unknown: residual {before}. {capital(titles(near.effects))} would leave "
                     f"{in_sigma(near.gap_after)} {sigma}, but {found.verdict.other_form} "
-                    "leaves clearly less"
+                    f"{'alone does as well, or better' if several else 'leaves clearly less'}"
                 )
             best, named = found.verdict.best, titles(near.effects) or _NOTHING
             named += _beside_sensors(near.imperfections)

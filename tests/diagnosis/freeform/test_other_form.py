@@ -23,6 +23,7 @@ from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.variables import Variable
 from diagnosis.selection.screening import screen
 from diagnosis.workers import Workers
+from models.tissue import Interface, Section
 
 LAYERED = RigParameters(layer_ratio=0.2, layer_boundary_fraction=0.5)
 EVENLY = RigParameters(free=FreeLaw(along_depth=AlongDepth(damping=(1.9, 1.54, 1.18, 0.82, 0.46, 0.1))))
@@ -148,6 +149,19 @@ def test_a_gain_of_the_torque_sensor_is_refuted_where_only_positive_torques_have
 
 def test_a_gain_of_the_torque_sensor_stands_where_all_torques_have_it():
     assert form_of(*fitted(reading_of_torque((-0.2, 0.0, 0.2)), ("torque_scale",))) is None
+
+
+def test_drag_at_the_tip_is_refuted_where_a_section_behind_it_is_rough():
+    """Which it imitates beside a shaft that is shorter by what lies in front of it."""
+    section = Section(interface=Interface(viscous_n_mm_s_per_mm=0.03), from_tip_mm=5.0, length_mm=25.0)
+    rig = RigParameters(free=FreeLaw(sections=(section,)))
+    form = form_of(*fitted(rig, ("tip_drag", "inserted_offset")))
+    assert form.name == "damping over position, in one section of the shaft"
+
+
+def test_drag_at_the_tip_stands_where_it_is_there():
+    rig = RigParameters(tip_drag_n_mm_s_per_rad=0.3, inserted_offset_mm=4.0)
+    assert form_of(*fitted(rig, ("tip_drag", "inserted_offset"))) is None
 
 
 def test_an_effect_of_which_no_other_form_is_named_is_not_compared(monkeypatch):

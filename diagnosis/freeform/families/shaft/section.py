@@ -1,6 +1,7 @@
-"""Free laws of a shaft whose surface differs along its length: a coating that is worn.
+"""Free laws of a shaft whose surface differs along its length: a coating that is worn, a rough patch.
 
 - dry friction of one section, anywhere
+- damping of one section, in addition to the nominal one
 - dry friction that changes along the shaft, from its tip on
 
 Only where the inserted length varies: at one length these are laws of the depth below the surface
@@ -12,10 +13,10 @@ from functools import partial
 
 import numpy as np
 
-from diagnosis.effects.effect import Effect, Place
+from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_layers.layers import box, place_of
 from diagnosis.freeform.families.interface import PARTS
-from diagnosis.freeform.family import Family, Points, coordinates_of, from_neutral
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of, from_neutral
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.free_law import FreeLaw
@@ -25,6 +26,8 @@ from models.tissue import Interface, Section
 
 _FROM = (0.02, 0.12, 0.24, 0.36, 0.48, 0.6, 0.75)  # of the greatest depth, where one is looked for
 _LONG = 0.2  # of it
+_NEAR_TIP_MM, _SHORT = 1.0, 0.1  # where drag at the tip is, and a length of the greatest depth
+_ROUGH = (0.01, 100.0, 3.0)  # bounds and start of additional damping, in the nominal one
 _PLACES = {Place.INTERFACE: 0.6, Place.NEEDLE: 0.4}
 
 
@@ -41,27 +44,27 @@ class _Sections:
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """Both laws, if the inserted length varies."""
+    """All of them, if the inserted length varies."""
     if Variable.DEPTH not in ranges.ends:
         return ()
     deepest = ranges.deepest_mm
     sections = _Sections(curve=smooth_curve(0.0, 1.0, PARTS), length_mm=deepest / PARTS)
-    return (_one_section(deepest, ranges), _along_the_shaft(sections, ranges))
+    return (
+        _one_section(deepest, ranges),
+        _one_rough_section(deepest, ranges),
+        _along_the_shaft(sections, ranges),
+    )
 
 
 def _one_section(deepest_mm: float, ranges: LogRanges) -> Family:
-    level, starts = ranges.dry_level, len(_FROM)
-    from_tip = place_of("from_tip", deepest_mm, _FROM)
+    level = ranges.dry_level
+    level = replace(level, high=level.high / _LONG, start=(level.start[0] / _LONG,))
     return Family(
         effect=Effect(
             name="dry friction over position, in one section of the shaft",
             title="dry friction of one section of the shaft",
             place=Place.INTERFACE,
-            parameters=(
-                from_tip,
-                replace(from_tip, name="length", start=(_LONG * deepest_mm,) * starts),
-                replace(level, high=level.high / _LONG, start=(level.start[0] / _LONG,) * starts),
-            ),
+            parameters=_in_one_place(deepest_mm, level),
             apply=_apply_one,
             differences=(1e-1, 1e-2),
         ),
@@ -76,6 +79,47 @@ def _one_section(deepest_mm: float, ranges: LogRanges) -> Family:
 
 def _apply_one(rig: RigParameters, from_tip: float, length: float, level: float) -> RigParameters:
     return replace(rig, free=FreeLaw(sections=(_dry(from_tip, length, level),)))
+
+
+def _one_rough_section(deepest_mm: float, ranges: LogRanges) -> Family:
+    nominal = ranges.damping_n_mm_s_per_mm
+    low, high, start = (times * nominal for times in _ROUGH)
+    level = Parameter(name="level", unit=VISCOUS, low=low, high=high, start=(start,), logarithmic=True)
+    return Family(
+        effect=Effect(
+            name="damping over position, in one section of the shaft",
+            title="damping of one section of the shaft",
+            place=Place.INTERFACE,
+            parameters=_in_one_place(deepest_mm, level),
+            apply=_apply_one_rough,
+            differences=(1e-1, 1e-2),
+        ),
+        places=_PLACES,
+        says="position",
+        title="additional damping along the shaft",
+        curve=partial(box, 0.0),
+        x_unit="mm from the tip",
+        unit=VISCOUS,
+        as_effect={"tip_drag": partial(_at_the_tip, _SHORT * deepest_mm)},
+    )
+
+
+def _apply_one_rough(rig: RigParameters, from_tip: float, length: float, level: float) -> RigParameters:
+    law = Interface(viscous_n_mm_s_per_mm=level)
+    section = Section(interface=law, from_tip_mm=from_tip, length_mm=length)
+    return replace(rig, free=FreeLaw(sections=(section,)))
+
+
+def _at_the_tip(length_mm: float, damping_n_mm_s: float) -> tuple[float, ...]:
+    """A short section with the drag of the tip."""
+    return _NEAR_TIP_MM, length_mm, damping_n_mm_s / length_mm
+
+
+def _in_one_place(deepest_mm: float, level: Parameter) -> tuple[Parameter, ...]:
+    """Place and length of a section, and its level, of which there is one start."""
+    from_tip = place_of("from_tip", deepest_mm, _FROM)
+    length = replace(from_tip, name="length", start=(_LONG * deepest_mm,) * len(_FROM))
+    return from_tip, length, replace(level, start=level.start * len(_FROM))
 
 
 def _along_the_shaft(sections: _Sections, ranges: LogRanges) -> Family:

@@ -36,6 +36,13 @@ def test_where_another_form_of_the_law_leaves_less_the_headline_says_which(dry):
 TWO = ("tip_drag", "torque_bias")
 
 
+def test_another_form_in_place_of_several_effects_does_as_well_alone(dry):
+    several = replace(dry.found.assessment, nearest=replace(dry.found.assessment.nearest, effects=TWO))
+    unknown = concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=(), other_form="a rough section")
+    said = headline(replace(unknown, assessment=several))
+    assert said.endswith("σ (σ = sensor noise), but a rough section alone does as well, or better")
+
+
 @pytest.mark.parametrize(
     ("verdict", "said"),
     [

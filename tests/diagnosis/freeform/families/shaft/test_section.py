@@ -1,4 +1,4 @@
-"""Dry friction of sections of the shaft."""
+"""Dry friction, and damping, of sections of the shaft."""
 
 from dataclasses import replace
 
@@ -16,7 +16,7 @@ from diagnosis.replay.variables import Variable
 ANGLE = turns(6.0)
 STILL = covered(ANGLE, tip=ANGLE)
 DEEPER = replace(STILL, ends={**STILL.ends, Variable.DEPTH: (40.0, 80.0)})
-ONE, ALONG = families(DEEPER)
+ONE, ROUGH, ALONG = families(DEEPER)
 FLAT = [0.0] * (PARTS - 1)
 DEEPEST_MM = max(trial.schedule.inserted_mm.max() for trial in DEEPER.problem.log.trials)
 EVEN = LIBRARY["coulomb_friction"].apply(NOMINAL, 0.003)
@@ -36,6 +36,22 @@ def test_one_section_that_is_the_whole_shaft_is_even_friction():
 def test_one_section_that_is_not_inserted_has_no_friction():
     outside = ONE.effect.apply(NOMINAL, DEEPEST_MM + 1.0, 20.0, 0.003)
     assert same_readings(ANGLE, outside, NOMINAL)
+
+
+def test_one_rough_section_that_is_the_whole_shaft_is_more_damping():
+    """But for the first millimetre at the tip, of 80 mm or more."""
+    nominal = DEEPER.damping_n_mm_s_per_mm
+    whole = ROUGH.effect.apply(NOMINAL, 1.0, 500.0, 0.5 * nominal)
+    more = LIBRARY["damping_error"].apply(NOMINAL, 1.5)
+    assert same_readings(ANGLE, whole, more, within=1.0 / 80)
+    assert not same_readings(ANGLE, whole, NOMINAL, within=1.0 / 80)
+
+
+def test_a_short_rough_section_at_the_tip_drags_as_much_as_the_tip():
+    """A section of a tenth of the depth is apart from the tip by a twentieth of it."""
+    near = ROUGH.effect.apply(NOMINAL, *ROUGH.as_effect["tip_drag"](0.2))
+    assert same_readings(ANGLE, near, LIBRARY["tip_drag"].apply(NOMINAL, 0.2), within=0.05)
+    assert not same_readings(ANGLE, near, NOMINAL, within=0.05)
 
 
 def test_sections_that_are_alike_are_even_friction():
