@@ -23,7 +23,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.missing.words import VARIABLES
 from diagnosis.freeform.other_form import STAGE as OTHER_FORMS
 from diagnosis.freeform.other_form import other_form
-from diagnosis.freeform.unknown import with_what_is_missing
+from diagnosis.freeform.unknown import Told, with_what_is_missing
 from diagnosis.log.faults.left_out import without
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import NominalReplay, at_samples, replay_nominal
@@ -102,23 +102,15 @@ def diagnose(
         )
         if more.best not in found.candidates:
             last, assessment = _concluded(log, nominal, more, pool)
-        missing, assessment = with_what_is_missing(
-            log,
-            last.problem,
-            last.coarse,
-            nominal.predictions,
-            last.verdict,
-            assessment,
-            found.effects,
-            pool,
-        )
+        known = Told(problem=last.problem, verdict=last.verdict, assessment=assessment)
+        told = with_what_is_missing(log, known, last.coarse, nominal.predictions, found.effects, pool)
     return Diagnosis(
         log=log,
-        noise=last.problem.noise,
-        nominal=at_samples(last.problem, nominal.predictions),
-        verdict=last.verdict,
-        assessment=assessment,
-        missing=missing,
+        noise=told.problem.noise,
+        nominal=at_samples(told.problem, nominal.predictions),
+        verdict=told.verdict,
+        assessment=told.assessment,
+        missing=told.missing,
         record=last.record,
         stopped=_early_stop(stop, last.cut),
         diagnosed_on=diagnosed_on,

@@ -28,6 +28,7 @@ from diagnosis.freeform.fits.first_fit import first_fit
 from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, few_of_each, with_family
 from diagnosis.freeform.fits.full_fit import full_fit
 from diagnosis.freeform.fits.held_out_check import fitted_and_checked
+from diagnosis.freeform.fits.noise_left import rescaled_fits
 from diagnosis.freeform.fits.richer_laws import richer
 from diagnosis.freeform.ranges import LogRanges, ranges_of
 from diagnosis.replay.replay import replay
@@ -78,6 +79,29 @@ def free_form_fits(
     far = _far(fitted, problem, coarse)
     finals = each_fit(FINALS, _on_the_log, [(problem, f, far) for f in _finalists(fitted, far)], workers)
     return (*finals, *_behind(finals, fitted, first))
+
+
+def fits_in_noise(
+    before: tuple[FitProblem, FitProblem],
+    after: tuple[FitProblem, FitProblem],
+    fits: Sequence[FreeFit],
+    effects: Sequence[str],
+    workers: Workers,
+) -> tuple[FreeFit, ...]:
+    """The fits in another noise, from where they are; all anew where none of these closes the gap there.
+
+    Args:
+      before, after: the log itself, and decimated, in either noise.
+    """
+    (_, coarse), (problem, quieter) = before, after
+    finals = [f for f in fits if f.final]
+    fitted = each_fit(FITTING, full_fit, [(quieter, f, np.inf, f.fit.x) for f in finals], workers)
+    if not fitted or _open(fitted):
+        return free_form_fits(problem, quieter, effects, workers)
+    calls = [(problem, f, False) for f in _finalists(fitted, False)]
+    finals = each_fit(FINALS, _on_the_log, calls, workers)
+    others = rescaled_fits([f for f in fits if not f.final], coarse, quieter.noise)
+    return (*finals, *_behind(finals, [*fitted, *others], ()))
 
 
 def _alone(

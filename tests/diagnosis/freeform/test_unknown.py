@@ -1,9 +1,11 @@
 """What is told of an unknown log beside the nearest explanation."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
-from diagnosis_fixtures import RIG
+from diagnosis_fixtures import RIG, log_of
 from free_forms import free_fit, nothing_told
 from rig_outside import log_outside
 
@@ -12,13 +14,17 @@ from diagnosis.effects.effect import Place
 from diagnosis.fitting.decimation import decimated
 from diagnosis.freeform import unknown
 from diagnosis.freeform.missing.in_words import DOUBT, what_is_missing
-from diagnosis.freeform.unknown import FREE_FORM, with_what_is_missing
+from diagnosis.freeform.unknown import FREE_FORM, Told, with_what_is_missing
 from diagnosis.nominal_replay import replay_nominal
+from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.verdicts.decision import verdict_on
 from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import StopReason, StopSignal
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 
+PROBLEM = SimpleNamespace(noise=SimpleNamespace(colour={}))  # white
 TOLD = nothing_told(nearest=SimpleNamespace(gap_after=1.01, at_bound=()))
 
 
@@ -28,8 +34,9 @@ def missing_from(fits, monkeypatch, kind=VerdictKind.UNKNOWN, stop=None, near=TO
     monkeypatch.setattr(unknown, "free_form_fits", fits)
     verdict, workers = SimpleNamespace(kind=kind, other_form=""), Workers(stop=stop)
     log = SimpleNamespace(trials=(None, None))
-    found = with_what_is_missing(log, None, None, (), verdict, near, (), workers)
-    return *found, stop
+    known = Told(problem=PROBLEM, verdict=verdict, assessment=near)
+    told = with_what_is_missing(log, known, None, (), (), workers)
+    return told.missing, told.assessment, stop
 
 
 @pytest.mark.parametrize("kind", [k for k in VerdictKind if k is not VerdictKind.UNKNOWN])
@@ -113,6 +120,47 @@ def test_laws_that_were_fitted_before_a_stop_are_told(monkeypatch):
     assert stop.left_out == [FREE_FORM]
 
 
+def test_all_is_told_in_the_noise_that_a_law_leaves(monkeypatch):
+    """Verdict, assessment and fits; what was taken for noise, a law explains."""
+    nominal = replay_nominal(log_of(NOMINAL, seconds=6.0))
+    loud = nominal.problem
+    quiet = replace(loud.noise, sigma={s: 0.5 * size for s, size in loud.noise.sigma.items()})
+    verdict = replace(verdict_on([candidate(nominal.fit)]), kind=VerdictKind.UNKNOWN)
+    known = Told(problem=loud, verdict=verdict, assessment=TOLD)
+
+    def assessed(_, problem, *__):
+        return TOLD if problem.noise is quiet else None
+
+    def explained(_, __, problem, *___):
+        return replace(TOLD, gap=SimpleNamespace(before=2.0, after=problem.noise is quiet))
+
+    monkeypatch.setattr(unknown, "free_form_fits", lambda *_: (free_fit(0.8),))
+    monkeypatch.setattr(unknown, "noise_left", lambda *_: quiet)
+    monkeypatch.setattr(unknown, "fits_in_noise", lambda *_: (free_fit(0.9),))
+    monkeypatch.setattr(unknown, "assess", assessed)
+    monkeypatch.setattr(unknown, "explained_by", explained)
+    coarse = decimated(loud, nominal.predictions)
+    told = with_what_is_missing(nominal.log, known, coarse, nominal.predictions, (), Workers())
+    assert told.problem.noise is quiet
+    assert told.missing.best.gap_after == 0.9
+    assert told.assessment.gap.after is True
+    # Residuals are twice as many of the halved noise.
+    left = np.concatenate(told.verdict.best.fit.by_trial) / np.concatenate(nominal.fit.by_trial)
+    np.testing.assert_allclose(left, 2.0)
+
+
+def test_where_no_law_can_be_fitted_in_less_noise_those_that_were_are_told(monkeypatch):
+    def failing(*_):
+        raise SimulationFailed("the simulation lost its numbers")
+
+    problem = SimpleNamespace(noise=None)
+    monkeypatch.setattr(unknown, "noise_left", lambda *_: "less")
+    monkeypatch.setattr(unknown, "in_noise", lambda *_: (None, None))
+    monkeypatch.setattr(unknown, "fits_in_noise", failing)
+    fits = (free_fit(0.8),)
+    assert unknown._in_the_noise_left(problem, None, fits, (), Workers()) == (fits, None)
+
+
 def test_laws_of_which_none_can_be_simulated_are_no_stop(monkeypatch):
     def failing(*_):
         raise SimulationFailed("the simulation lost its numbers")
@@ -128,8 +176,9 @@ def told_of(log, nearest_gap):
     coarse = decimated(nominal.problem, nominal.predictions)
     verdict = SimpleNamespace(kind=VerdictKind.UNKNOWN, other_form="")
     told = nothing_told(nearest=SimpleNamespace(gap_after=nearest_gap, at_bound=()))
-    found = (nominal.log, nominal.problem, coarse, nominal.predictions, verdict, told, (), Workers())
-    return with_what_is_missing(*found)
+    known = Told(problem=nominal.problem, verdict=verdict, assessment=told)
+    found = with_what_is_missing(nominal.log, known, coarse, nominal.predictions, (), Workers())
+    return found.missing, found.assessment
 
 
 @pytest.mark.slow
