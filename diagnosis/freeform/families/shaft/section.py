@@ -8,6 +8,7 @@ Only where the inserted length varies: at one length these are laws of the depth
 (in_layers).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -59,22 +60,8 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 def _one_section(deepest_mm: float, ranges: LogRanges) -> Family:
     level = ranges.dry_level
     level = replace(level, high=level.high / _LONG, start=(level.start[0] / _LONG,))
-    return Family(
-        effect=Effect(
-            name="dry friction over position, in one section of the shaft",
-            title="dry friction of one section of the shaft",
-            place=Place.INTERFACE,
-            parameters=_in_one_place(deepest_mm, level),
-            apply=_apply_one,
-            differences=(1e-1, 1e-2),
-        ),
-        places=_PLACES,
-        says="position",
-        title="dry friction along the shaft",
-        curve=partial(box, 0.0),
-        x_unit="mm from the tip",
-        unit="N mm / mm",
-    )
+    effect = _of_one_section("dry friction", deepest_mm, level, _apply_one)
+    return _law(effect, "dry friction along the shaft", "N mm / mm")
 
 
 def _apply_one(rig: RigParameters, from_tip: float, length: float, level: float) -> RigParameters:
@@ -85,23 +72,9 @@ def _one_rough_section(deepest_mm: float, ranges: LogRanges) -> Family:
     nominal = ranges.damping_n_mm_s_per_mm
     low, high, start = (times * nominal for times in _ROUGH)
     level = Parameter(name="level", unit=VISCOUS, low=low, high=high, start=(start,), logarithmic=True)
-    return Family(
-        effect=Effect(
-            name="damping over position, in one section of the shaft",
-            title="damping of one section of the shaft",
-            place=Place.INTERFACE,
-            parameters=_in_one_place(deepest_mm, level),
-            apply=_apply_one_rough,
-            differences=(1e-1, 1e-2),
-        ),
-        places=_PLACES,
-        says="position",
-        title="additional damping along the shaft",
-        curve=partial(box, 0.0),
-        x_unit="mm from the tip",
-        unit=VISCOUS,
-        as_effect={"tip_drag": partial(_at_the_tip, _SHORT * deepest_mm)},
-    )
+    effect = _of_one_section("damping", deepest_mm, level, _apply_one_rough)
+    at_the_tip = {"tip_drag": partial(_at_the_tip, _SHORT * deepest_mm)}
+    return replace(_law(effect, "additional damping along the shaft", VISCOUS), as_effect=at_the_tip)
 
 
 def _apply_one_rough(rig: RigParameters, from_tip: float, length: float, level: float) -> RigParameters:
@@ -115,11 +88,33 @@ def _at_the_tip(length_mm: float, damping_n_mm_s: float) -> tuple[float, ...]:
     return _NEAR_TIP_MM, length_mm, damping_n_mm_s / length_mm
 
 
-def _in_one_place(deepest_mm: float, level: Parameter) -> tuple[Parameter, ...]:
-    """Place and length of a section, and its level, of which there is one start."""
+def _of_one_section(
+    what: str, deepest_mm: float, level: Parameter, apply: Callable[..., RigParameters]
+) -> Effect:
+    """Place and length of a section, and the level of its law, of which there is one start."""
     from_tip = place_of("from_tip", deepest_mm, _FROM)
     length = replace(from_tip, name="length", start=(_LONG * deepest_mm,) * len(_FROM))
-    return from_tip, length, replace(level, start=level.start * len(_FROM))
+    return Effect(
+        name=f"{what} over position, in one section of the shaft",
+        title=f"{what} of one section of the shaft",
+        place=Place.INTERFACE,
+        parameters=(from_tip, length, replace(level, start=level.start * len(_FROM))),
+        apply=apply,
+        differences=(1e-1, 1e-2),
+    )
+
+
+def _law(effect: Effect, title: str, unit: str) -> Family:
+    """The law of one section, told from the tip on."""
+    return Family(
+        effect=effect,
+        places=_PLACES,
+        says="position",
+        title=title,
+        curve=partial(box, 0.0),
+        x_unit="mm from the tip",
+        unit=unit,
+    )
 
 
 def _along_the_shaft(sections: _Sections, ranges: LogRanges) -> Family:
