@@ -20,7 +20,6 @@ from diagnosis.criteria.selection import REPLAYS_AFTER_STOP
 from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.freeform.missing.words import VARIABLES
 from diagnosis.freeform.other_form import STAGE as OTHER_FORMS
 from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.unknown import Told, with_what_is_missing
@@ -157,7 +156,7 @@ def _early_stop(stop: StopSignal, search: bool) -> EarlyStop | None:
 
 
 def _of_another_form(judged: Judged, nominal: NominalReplay, workers: Workers) -> Judged:
-    """Refuted, where a law that no library holds leaves clearly less than an explanation."""
+    """Refuted, where a law that no library holds does better than an explanation."""
     verdict = judged.verdict
     if verdict.kind not in (VerdictKind.EXPLAINED, VerdictKind.UNDECIDED):
         return judged
@@ -165,10 +164,9 @@ def _of_another_form(judged: Judged, nominal: NominalReplay, workers: Workers) -
     form = workers.stop.unless_due(OTHER_FORMS, lambda: other_form(nominal, best, workers))
     if form is None:
         return judged
-    law = f"{form.title} that depends on {VARIABLES[form.says]}"
-    entry = dropped("verdict", [verdict.best], f"{law} leaves clearly less")
+    entry = dropped("verdict", [verdict.best], form.in_words)
     plain = _without_drift(judged)
-    return replace(plain, verdict=refuted(plain.verdict, law), record=(*judged.record, *entry))
+    return replace(plain, verdict=refuted(plain.verdict, form.in_words), record=(*judged.record, *entry))
 
 
 def _without_drift(judged: Judged) -> Judged:

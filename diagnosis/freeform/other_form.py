@@ -34,11 +34,12 @@ from diagnosis.freeform.families import families_of
 from diagnosis.freeform.family import REST, STRAIGHT, Family
 from diagnosis.freeform.fits.free_fit import with_family
 from diagnosis.freeform.fits.full_fit import ITERATIONS
+from diagnosis.freeform.missing.words import VARIABLES
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.nominal_replay import NominalReplay
 from diagnosis.replay.replay import replay
 from diagnosis.selection.candidate import candidate
-from diagnosis.workers import Failure, Task, Workers
+from diagnosis.workers import Task, Workers
 
 Array = NDArray[np.float64]
 
@@ -48,8 +49,25 @@ _NEARLY_STRAIGHT = {STRAIGHT: 0.5, REST: 0.1}  # priors of the parts of a curve
 _WEAK = 0.05  # times the first start of a level
 
 
-def other_form(nominal: NominalReplay, best: Fit, workers: Workers) -> Family | None:
-    """The free-form law that leaves clearly less than an effect of an explanation; None: there is none.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class OtherForm:
+    """A free-form law that refutes an explanation.
+
+    Attributes:
+      leaves: how it does, in words.
+    """
+
+    family: Family
+    leaves: str
+
+    @property
+    def in_words(self) -> str:
+        """The law and how it refutes, as the end of a sentence."""
+        return f"{self.family.title} that depends on {VARIABLES[self.family.says]} {self.leaves}"
+
+
+def other_form(nominal: NominalReplay, best: Fit, workers: Workers) -> OtherForm | None:
+    """The free-form law that refutes an effect of an explanation; None: there is none.
 
     Args:
       nominal: the log as it was replayed first, without drift of the sensors.
@@ -68,12 +86,15 @@ def other_form(nominal: NominalReplay, best: Fit, workers: Workers) -> Family | 
     tasks = [
         Task(effects=(f.name,), arguments=(problem, coarse, best, asked[f.name], f)) for f in families
     ]
-    each = zip(families, workers.each(STAGE, _leaves_less, tasks), strict=True)
-    return next((f for f, less in each if less and not isinstance(less, Failure)), None)
+    each = zip(families, workers.each(STAGE, _how_it_refutes, tasks), strict=True)
+    found = (OtherForm(family=f, leaves=how) for f, how in each if isinstance(how, str) and how)
+    return next(found, None)
 
 
-def _leaves_less(problem: FitProblem, coarse: FitProblem, best: Fit, name: str, family: Family) -> bool:
-    """Whether a family in place of an effect is at the noise floor, and leaves clearly less.
+def _how_it_refutes(
+    problem: FitProblem, coarse: FitProblem, best: Fit, name: str, family: Family
+) -> str:
+    """How a family in place of an effect, at the noise floor, refutes it, in words; empty: it does not.
 
     Without imperfections and drift of sensors on either side, which may compensate for a wrong form;
     where the explanation with its imperfections leaves clearly less still, they did not.
@@ -86,9 +107,9 @@ def _leaves_less(problem: FitProblem, coarse: FitProblem, best: Fit, name: str, 
     )
     alone = (*(n for n in others if n in SCATTER), family.name)
     compensated = len(alone) <= len(others) and not set(others) & set(family.contains)
-    return (compensated and fits.leaves(alone, 1 / SECOND_LEAVES, fewer=True)) or fits.leaves(
-        (*others, family.name), SECOND_LEAVES
-    )
+    if compensated and fits.leaves(alone, 1 / SECOND_LEAVES, fewer=True):
+        return "leaves about as little alone"
+    return "leaves clearly less" if fits.leaves((*others, family.name), SECOND_LEAVES) else ""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -109,15 +109,20 @@ def _in_the_noise_left(
     effects: Sequence[str],
     workers: Workers,
 ) -> tuple[tuple[FreeFit, ...], Problems | None]:
-    """The fits in the noise that they leave, and the problems with that; None: it is no less."""
+    """The fits in the noise that they leave, and the problems with that; None: it is no less.
+
+    After a stop, and where none of them can be simulated in that noise, they are as they were.
+    """
     noise = None if workers.stop.due else noise_left(problem, fits)
     if noise is None:
         return fits, None
     quieter = in_noise(problem, coarse, noise)
     try:
-        return fits_in_noise((problem, coarse), quieter, fits, effects, workers), quieter
+        again = fits_in_noise((problem, coarse), quieter, fits, effects, workers)
     except (SimulationFailed, StoppedEarly):
         return fits, None
+    done = any(f.final for f in again) and not workers.stop.due
+    return (again, quieter) if done else (fits, None)
 
 
 def _in_that_noise(

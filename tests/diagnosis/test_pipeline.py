@@ -44,12 +44,12 @@ def test_what_is_missing_of_a_refuted_explanation_is_looked_for_without_drift(mo
     coarse = replace(start_of_search(nominal.log, ()).coarse, noise=drifting)
     fit = fit_effects(fine, ("coulomb_friction",))
     verdict = replace(verdict_on([candidate(fit)]), kind=VerdictKind.EXPLAINED)
-    form = SimpleNamespace(title="dry friction along the shaft", says="rate")
+    form = SimpleNamespace(in_words="a law over the rate leaves less")
     monkeypatch.setattr(pipeline, "other_form", lambda *_: form)
     judged = pipeline.Judged(problem=fine, coarse=coarse, verdict=verdict, record=())
     found = pipeline._of_another_form(judged, nominal, Workers())
     assert found.verdict.kind is VerdictKind.UNKNOWN
-    assert found.verdict.other_form == "dry friction along the shaft that depends on the rate of turning"
+    assert found.verdict.other_form == "a law over the rate leaves less"
     for problem in (found.problem, found.coarse):
         assert not problem.noise.drifts
     left = found.problem.residuals([fit.parameterization.rig(fit.x)])

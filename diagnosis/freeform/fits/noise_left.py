@@ -8,8 +8,6 @@ this noise tells what the noise is without it.
 from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from diagnosis.criteria.freeform import CLOSED_GAP, NOISE_LEFT
 from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.noise_reestimation import reestimated_noise, rescaled
@@ -37,9 +35,5 @@ def in_noise(problem: FitProblem, coarse: FitProblem, noise: Noise) -> tuple[Fit
 
 def rescaled_fits(fits: Sequence[FreeFit], coarse: FitProblem, noise: Noise) -> list[FreeFit]:
     """Fits of the decimated log with residuals in units of another noise of it."""
-    return [_rescaled(one, coarse, noise) for one in fits]
-
-
-def _rescaled(one: FreeFit, coarse: FitProblem, noise: Noise) -> FreeFit:
-    fit = rescaled(one.fit, coarse, noise)
-    return replace(one, fit=fit, gap_after=float(np.sqrt(fit.cost / fit.samples)))
+    each = ((one, rescaled(one.fit, coarse, noise)) for one in fits)
+    return [replace(one, fit=fit, gap_after=fit.gap) for one, fit in each]

@@ -50,11 +50,9 @@ def _verdict(found: Diagnosis) -> str:
         case _:
             near = found.assessment.nearest
             if found.verdict.other_form:
-                several = len(near.effects) > 1
                 return (
                     f"Unknown: residual {before}. {capital(titles(near.effects))} would leave "
-                    f"{in_sigma(near.gap_after)} {sigma}, but {found.verdict.other_form} "
-                    f"{'alone does as well, or better' if several else 'leaves clearly less'}"
+                    f"{in_sigma(near.gap_after)} {sigma}, but {found.verdict.other_form}"
                 )
             best, named = found.verdict.best, titles(near.effects) or _NOTHING
             named += _beside_sensors(near.imperfections)

@@ -45,10 +45,10 @@ def with_open_effects(verdict: Verdict, effects: Sequence[str]) -> Verdict:
 
 
 def refuted(verdict: Verdict, form: str) -> Verdict:
-    """The verdict where a law that no library holds leaves clearly less than the explanation.
+    """The verdict where a law that no library holds does better than the explanation.
 
     Args:
-      form: of that law, in plain words.
+      form: that law, and how it does better, in plain words.
     """
     return Verdict(
         kind=VerdictKind.UNKNOWN,

@@ -60,11 +60,14 @@ def fitted(rig, names=("layered_tissue",)):
 
 
 def form_of(nominal, best):
-    return other_form(nominal, best, Workers())
+    found = other_form(nominal, best, Workers())
+    return found and found.family
 
 
 def test_two_layers_are_refuted_where_damping_changes_evenly_along_the_shaft():
-    assert form_of(*fitted(EVENLY)).name == "damping over position"
+    form = other_form(*fitted(EVENLY), Workers())
+    assert form.family.name == "damping over position"
+    assert form.in_words.endswith(" leaves clearly less")
 
 
 def test_two_layers_stand_where_there_are_two():
@@ -155,8 +158,12 @@ def test_drag_at_the_tip_is_refuted_where_a_section_behind_it_is_rough():
     """Which it imitates beside a shaft that is shorter by what lies in front of it."""
     section = Section(interface=Interface(viscous_n_mm_s_per_mm=0.03), from_tip_mm=5.0, length_mm=25.0)
     rig = RigParameters(free=FreeLaw(sections=(section,)))
-    form = form_of(*fitted(rig, ("tip_drag", "inserted_offset")))
-    assert form.name == "damping over position, in one section of the shaft"
+    form = other_form(*fitted(rig, ("tip_drag", "inserted_offset")), Workers())
+    assert form.family.name == "damping over position, in one section of the shaft"
+    assert form.in_words == (
+        "additional damping along the shaft that depends on the place along the shaft "
+        "leaves about as little alone"
+    )
 
 
 def test_drag_at_the_tip_stands_where_it_is_there():

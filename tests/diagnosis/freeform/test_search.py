@@ -11,7 +11,8 @@ from diagnosis.fitting.fit import Fit
 from diagnosis.freeform import search
 from diagnosis.freeform.fits import combined_laws
 from diagnosis.freeform.fits.free_fit import FreeFit
-from diagnosis.freeform.search import free_form_fits
+from diagnosis.freeform.search import fits_in_noise, free_form_fits
+from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection.screening import Screened
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
@@ -235,3 +236,56 @@ def test_where_the_only_laws_in_reach_cannot_be_simulated_the_next_ones_are_fitt
     first = {"lost": 1.2, "near": 1.2 * search.IN_REACH + 0.5, "far": 1.2 * search.IN_REACH + 1.0}
     found = run(first, {"lost": None, "near": 2.0, "far": 3.0})
     assert next(f.family.name for f in found if f.final) == "near"
+
+
+@pytest.fixture
+def in_half_the_noise(monkeypatch):
+    """Fits of a log in half the noise, in which the law comes to a gap; and what was begun anew."""
+    problem, _ = one_trial(np.linspace(0, 90, 200), tip=np.zeros(200))
+    noise = problem.noise
+    half = replace(problem, noise=replace(noise, sigma={s: 0.5 * v for s, v in noise.sigma.items()}))
+    fits = tuple(leaving(problem, name, 1.0, final=name == "best") for name in ("best", "behind"))
+
+    def run(gap):
+        anew = []
+
+        def fitted_anew(coarse, one, enough, start):
+            assert coarse is half
+            np.testing.assert_array_equal(start, one.fit.x)
+            return leaving(half, one.family.name, gap, final=False)
+
+        def all_anew(*given):
+            anew.append(given)
+            return ()
+
+        monkeypatch.setattr(search, "full_fit", fitted_anew)
+        monkeypatch.setattr(search, "_on_the_log", lambda _, one, far: replace(one, final=True))
+        monkeypatch.setattr(search, "free_form_fits", all_anew)
+        before, after = (problem, problem), (half, half)
+        return fits_in_noise(before, after, fits, ("stiction",), Workers()), anew
+
+    return run
+
+
+def leaving(problem, name, gap, *, final):
+    """The fit of a family that leaves so many sigma of every reading."""
+    family = family_of(parameters=[LEVEL], name=name)
+    rows = problem.residuals([NOMINAL])[0][0].size
+    fit = linear_fit(family, [np.zeros((rows, 1))], [np.full(rows, gap)], x=[0.0])
+    return FreeFit(family=family, fit=fit, gap_after=gap, final=final)
+
+
+def test_laws_that_close_the_gap_in_less_noise_go_on_from_where_they_are(in_half_the_noise):
+    fits, anew = in_half_the_noise(CLOSED_GAP - 0.05)
+    assert anew == []
+    assert [(f.family.name, f.final, f.gap_after) for f in fits] == [
+        ("best", True, pytest.approx(CLOSED_GAP - 0.05)),
+        ("behind", False, pytest.approx(2.0)),  # as many readings, in half the noise
+    ]
+
+
+def test_where_none_does_all_laws_are_fitted_anew_there(in_half_the_noise):
+    fits, [(problem, coarse, effects, _)] = in_half_the_noise(CLOSED_GAP + 0.05)
+    assert fits == ()
+    assert problem is coarse
+    assert effects == ("stiction",)

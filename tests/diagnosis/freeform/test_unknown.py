@@ -149,16 +149,23 @@ def test_all_is_told_in_the_noise_that_a_law_leaves(monkeypatch):
     np.testing.assert_allclose(left, 2.0)
 
 
-def test_where_no_law_can_be_fitted_in_less_noise_those_that_were_are_told(monkeypatch):
+@pytest.mark.parametrize("how", ["cannot be simulated", "stopped", "none of the log itself"])
+def test_where_no_law_can_be_fitted_in_less_noise_those_that_were_are_told(how, monkeypatch):
+    workers = Workers(stop=StopSignal())
+
     def failing(*_):
-        raise SimulationFailed("the simulation lost its numbers")
+        if how == "cannot be simulated":
+            raise SimulationFailed("the simulation lost its numbers")
+        if how == "stopped":
+            workers.stop.request(StopReason.INTERRUPTED)
+        return (free_fit(0.9, final=how == "stopped"),)
 
     problem = SimpleNamespace(noise=None)
     monkeypatch.setattr(unknown, "noise_left", lambda *_: "less")
     monkeypatch.setattr(unknown, "in_noise", lambda *_: (None, None))
     monkeypatch.setattr(unknown, "fits_in_noise", failing)
     fits = (free_fit(0.8),)
-    assert unknown._in_the_noise_left(problem, None, fits, (), Workers()) == (fits, None)
+    assert unknown._in_the_noise_left(problem, None, fits, (), workers) == (fits, None)
 
 
 def test_laws_of_which_none_can_be_simulated_are_no_stop(monkeypatch):

@@ -9,6 +9,7 @@ missing is no defect beside the diagnosis but the diagnosis: the log stays unkno
 told as the law that is missing.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from diagnosis.log.trial import SENSORS, TIP, TORQUE
@@ -72,9 +73,7 @@ def _beginning_at_zero(state: SearchState, sensor: str, workers: Workers) -> Sea
     Scores are for an offset where drifts go to one side by chance.
     """
     for noise in wide_drifts(state.problem, sensor):
-        both = _with_and_without_offset(state, sensor, noise, state.best, workers)
-        without = tuple(c for c in both.candidates if OFFSETS[sensor] not in c.names)
-        found, explained = replace(both, candidates=without).rechecked()
+        found, explained = _without_offset(state, sensor, noise, workers).rechecked()
         if explained and _may_be(found, sensor) and not begins_off_zero(found, sensor):
             return found
     return None
@@ -137,11 +136,31 @@ def _with_and_without_offset(
     state: SearchState, sensor: str, noise: Noise, best: Candidate, workers: Workers
 ) -> SearchState:
     """The state in that noise, with the best fitted anew there."""
-    offset, begun = OFFSETS[sensor], state.renoised(noise)
+    offset = OFFSETS[sensor]
     without = tuple(name for name in best.names if name != offset)
     having = (*without, offset)
     possible = offset in state.effects and len(having) <= _MOST_EFFECTS
-    sets, problem = (without, having) if possible else (without,), begun.problem
+    return _fitted_anew(state, noise, best, (without, having) if possible else (without,), workers)
+
+
+def _without_offset(state: SearchState, sensor: str, noise: Noise, workers: Workers) -> SearchState:
+    """The state in that noise, with the best without its offset, and no other that has one."""
+    names = tuple(name for name in state.best.names if name != OFFSETS[sensor])
+    found = _fitted_anew(state, noise, state.best, (names,), workers)
+    without = tuple(c for c in found.candidates if OFFSETS[sensor] not in c.names)
+    return replace(found, candidates=without)
+
+
+def _fitted_anew(
+    state: SearchState,
+    noise: Noise,
+    best: Candidate,
+    sets: Sequence[tuple[str, ...]],
+    workers: Workers,
+) -> SearchState:
+    """The state in that noise, with sets of effects fitted there from where the best is."""
+    begun = state.renoised(noise)
+    problem = begun.problem
     starts = [(problem, s, problem.parameterization(s).joined(best.fit.parts)) for s in sets]
     others = tuple(c for c in begun.candidates if {*c.names} not in map(set, sets))
     return replace(begun, candidates=others).adding(fit_all(STAGE, starts, workers))

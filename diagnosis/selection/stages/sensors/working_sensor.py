@@ -141,9 +141,8 @@ def what_is_likelier(state: SearchState, drifting: SearchState, sensor: str) -> 
 
 def is_off_zero(state: SearchState, sensor: str) -> bool:
     """Whether the drift beside the best begins off zero, or is off it on average over its trials."""
-    problem = state.problem
-    means = means_sigma(problem.log, sensor, problem.noise, _replayed(state))
-    return begins_off_zero(state, sensor) or _is_off(means)
+    of = state.problem.log, sensor, state.problem.noise, _replayed(state)
+    return _begin_off(starts(*of)) or _is_off(means_sigma(*of))
 
 
 def begins_off_zero(state: SearchState, sensor: str) -> bool:
@@ -151,7 +150,10 @@ def begins_off_zero(state: SearchState, sensor: str) -> bool:
 
     Of several trials to the same side in each: an offset would be the same in all.
     """
-    begun = starts(state.problem.log, sensor, state.problem.noise, _replayed(state))
+    return _begin_off(starts(state.problem.log, sensor, state.problem.noise, _replayed(state)))
+
+
+def _begin_off(begun: NDArray[np.float64]) -> bool:
     to_a_side = begun.size < _SEVERAL or bool(np.ptp(np.sign(begun)) == 0)
     in_each = bool(begun.size) and to_a_side and bool(np.abs(begun).min() > DRIFT_START_SIGMA)
     return in_each or _is_off(begun)
