@@ -56,6 +56,29 @@ class Stage(NamedTuple):
 
 
 @embedded
+def recall(state: Array) -> Memory:
+    """What a site remembers, from its state."""
+    return Memory(
+        state[memory_map.Z_DRY],
+        state[memory_map.Z_TURN],
+        state[memory_map.Z_AXIAL],
+        state[memory_map.PHI],
+        state[memory_map.PAST],
+    )
+
+
+@embedded
+def remember(state: Array, new: Memory, slip: float) -> None:
+    """Write what a stage leaves into the state of a site; `slip` is its slip rate, rad/s."""
+    state[memory_map.Z_DRY] = new.dry
+    state[memory_map.Z_TURN] = new.turn
+    state[memory_map.Z_AXIAL] = new.axial
+    state[memory_map.PHI] = new.phi
+    state[memory_map.PAST] = new.past
+    state[memory_map.SLIP] = slip
+
+
+@embedded
 def slip_law(
     s: float, row: Array, extra: float, old: Memory, stage: Stage
 ) -> tuple[float, float, Memory]:

@@ -7,10 +7,11 @@ their torque and slope at each iteration.
 """
 
 import math
+from typing import NamedTuple
 
 from sim.kernel import memory_map
 from sim.kernel.compiled import Array, embedded, inlined
-from sim.kernel.law import Memory, Stage, site_law
+from sim.kernel.law import Stage, recall, remember, site_law
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 from sim.kernel.stage.curves import contact_factor, mean_factor
 from sim.kernel.stage.workspace import Frame, Workspace
@@ -128,70 +129,85 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
     Returns the power that goes into twisted tissue and bent shaft, W, and the energy stored in the
     tissue, J, but for what tissue that hardens adds to both.
     """
-    x, theta, omega, spring = w.x, w.theta, w.omega, w.spring
-    lower, diagonal, upper, rhs = w.lower, w.diagonal, w.upper, w.rhs
-    loads, before, after = w.loads[r], w.start[r], w.end[r]
+    theta, omega, before, after = w.theta, w.omega, w.start[r], w.end[r]
     stage = Stage(frame.g, frame.axial, frame.yield_angle, frame.factor)
-    g, n = frame.g, omega.size - 1
-    is_point, place, fraction = row[memory_map.L_POINT] != 0.0, int(w.point[r, 0]), w.point[r, 1]
+    g, n, is_point = frame.g, omega.size - 1, row[memory_map.L_POINT] != 0.0
     load, curvature, wave = row[memory_map.L_LOAD], row[memory_map.L_CURVATURE], row[memory_map.L_WAVE]
     cycles, phase, keyed = row[memory_map.L_CYCLES], row[memory_map.L_PHASE], row[memory_map.L_KEYED]
     factor = frame.factor if row[memory_map.L_VARIES] != 0.0 else 1.0
     if row[memory_map.L_VARIES] == memory_map.TORQUE_VARIES:
         curvature, wave = factor * curvature, factor * wave
     recoverable, stored = 0.0, 0.0
-    for site in range(1 if is_point else 2 * n):
-        e, k = (place, 0) if is_point else (site // 2, site % 2)
-        slot = 0 if is_point else e
-        right = fraction if is_point else (XI_RIGHT if k == 1 else XI_LEFT)
-        left = 1.0 - right
-        to_left = left if is_point else loads[e, k]
-        to_right = right if is_point else loads[e, 2 + k]
-        weight = to_left + to_right
+    for index in range(1 if is_point else 2 * n):
+        at = _site(w, r, index, is_point)
+        weight = at.to_left + at.to_right
         if weight == 0.0:
             continue
+        e = at.element
         twist = twist_of(theta, omega, e, g)
-        per_length = frame.drift / (x[e + 1] - x[e])
-        advected = per_length * twist
-        rate = left * omega[e] + right * omega[e + 1]
-        at_tip = e == n - 1 and right > 1.0 - _AT_END
-        extra = load * abs(tip_torque if at_tip else spring[e] * twist)
-        angle = cycles * (left * theta[e] + right * theta[e + 1] + g * rate) - phase
+        per_length = frame.drift / (w.x[e + 1] - w.x[e])
+        turning = at.left * omega[e] + at.right * omega[e + 1]
+        rate = turning + per_length * twist
+        at_tip = e == n - 1 and at.right > 1.0 - _AT_END
+        extra = load * abs(tip_torque if at_tip else w.spring[e] * twist)
+        angle = cycles * (at.left * theta[e] + at.right * theta[e + 1] + g * turning) - phase
         if keyed > 0.0:
             extra += keyed * (1.0 + math.cos(angle))
-        old = Memory(
-            before[slot, k, memory_map.Z_DRY],
-            before[slot, k, memory_map.Z_TURN],
-            before[slot, k, memory_map.Z_AXIAL],
-            before[slot, k, memory_map.PHI],
-            before[slot, k, memory_map.PAST],
-        )
-        last = after[slot, k, memory_map.SLIP]
-        torque, slope, slip, new = site_law(rate + advected, row, extra, old, stage, last)
-        after[slot, k, memory_map.Z_DRY] = new.dry
-        after[slot, k, memory_map.Z_TURN] = new.turn
-        after[slot, k, memory_map.Z_AXIAL] = new.axial
-        after[slot, k, memory_map.PHI] = new.phi
-        after[slot, k, memory_map.PAST] = new.past
-        after[slot, k, memory_map.SLIP] = slip
+        last = after[at.slot, at.k, memory_map.SLIP]
+        old = recall(before[at.slot, at.k])
+        torque, slope, slip, new = site_law(rate, row, extra, old, stage, last)
+        remember(after[at.slot, at.k], new, slip)
         stiffness = factor * weight * row[memory_map.L_STIFFNESS]
         stored += 0.5 * stiffness * new.phi * new.phi
-        recoverable += stiffness * new.phi * (rate + advected - slip)
+        recoverable += stiffness * new.phi * (rate - slip)
         if curvature != 0.0 or wave != 0.0:
-            sine, cosine, turning = math.sin(angle), math.cos(angle), rate + advected
-            torque += curvature * sine + wave * cosine * turning
-            slope += g * cycles * (curvature * cosine - wave * sine * turning) + wave * cosine
-            recoverable += weight * curvature * sine * rate
+            sine, cosine = math.sin(angle), math.cos(angle)
+            torque += curvature * sine + wave * cosine * rate
+            slope += g * cycles * (curvature * cosine - wave * sine * rate) + wave * cosine
+            recoverable += weight * curvature * sine * turning
         if keyed > 0.0:
             slope -= g * cycles * keyed * math.sin(angle) * new.dry / frame.yield_angle
-        tilt = g * per_length
-        rhs[e] -= to_left * torque
-        rhs[e + 1] -= to_right * torque
-        diagonal[e] += to_left * slope * (left - tilt)
-        upper[e] += to_left * slope * (right + tilt)
-        lower[e + 1] += to_right * slope * (left - tilt)
-        diagonal[e + 1] += to_right * slope * (right + tilt)
+        _load(w, at, torque, slope, g * per_length)
     return recoverable, stored
+
+
+class _Site(NamedTuple):
+    """Where a row acts, what it reads of the ends of that element, and how it loads them."""
+
+    element: int
+    slot: int  # of the site states
+    k: int
+    left: float  # parts of the ends in what it reads
+    right: float
+    to_left: float  # what a torque per length there loads the ends with, m; of a point, its parts
+    to_right: float
+
+
+@embedded
+def _site(w: Workspace, r: int, index: int, is_point: bool) -> _Site:
+    """A site of a row: its only one if the row is a point, else one of two in an element."""
+    if is_point:
+        right = w.point[r, 1]
+        return _Site(int(w.point[r, 0]), 0, 0, 1.0 - right, right, 1.0 - right, right)
+    e, k = index // 2, index % 2
+    right = XI_RIGHT if k == 1 else XI_LEFT
+    return _Site(e, e, k, 1.0 - right, right, w.loads[r, e, k], w.loads[r, e, 2 + k])
+
+
+@embedded
+def _load(w: Workspace, at: _Site, torque: float, slope: float, tilt: float) -> None:
+    """Put the torque of a site and its slope on the ends of its element.
+
+    `tilt` is what the slip gains by advection per rate of twist: as the shaft slides, the site reads
+    less of the left end and more of the right one.
+    """
+    e, left, right = at.element, at.left - tilt, at.right + tilt
+    w.rhs[e] -= at.to_left * torque
+    w.rhs[e + 1] -= at.to_right * torque
+    w.diagonal[e] += at.to_left * slope * left
+    w.upper[e] += at.to_left * slope * right
+    w.lower[e + 1] += at.to_right * slope * left
+    w.diagonal[e + 1] += at.to_right * slope * right
 
 
 @embedded
