@@ -55,6 +55,6 @@ def refuted(verdict: Verdict, form: str) -> Verdict:
         effects=(),
         confusable=(),
         best=verdict.best,
-        ranking=ranking_of((), known=False),
+        ranking=ranking_of((), None),
         other_form=form,
     )

@@ -45,7 +45,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
             effects=(),
             confusable=(),
             best=_nearest(candidates),
-            ranking=ranking_of(candidates, known=False),
+            ranking=ranking_of(candidates, None),
         )
     best = _simplest(at_floor)
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
@@ -75,7 +75,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
         confusable=distinct(tuple(c.named) for c in (best, *rivals)) if rivals else (),
         best=best,
         rivals=tuple(rivals),
-        ranking=ranking_of((*at_floor, *refused), known=True),
+        ranking=ranking_of((*at_floor, *refused), best),
     )
 
 

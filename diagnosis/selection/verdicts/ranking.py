@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 
+from diagnosis.criteria.selection import SIMPLE_LEAD
 from diagnosis.effects import LIBRARY
 from diagnosis.selection.candidate import Candidate
 
@@ -11,21 +12,34 @@ NOTHING, UNEXPLAINED = "none", "unknown"
 
 
 def ranking_of(
-    candidates: Sequence[Candidate], *, known: bool
+    candidates: Sequence[Candidate], best: Candidate | None
 ) -> tuple[tuple[tuple[str, ...], float], ...]:
-    """Probabilities of all explanations, also of what was not worth a fit; a set of effects is one."""
+    """Probabilities of all explanations, also of what was not worth a fit; a set of effects is one.
+
+    Args:
+      best: what the verdict names; None: what explains the log is unknown.
+    """
     found: dict[tuple[str, ...], float] = {(n,): 0.0 for n in (*LIBRARY, NOTHING, UNEXPLAINED)}
-    if known:
-        found |= {named or (NOTHING,): p for named, p in _probabilities(candidates).items()}
-    else:
+    if best is None:
         found[UNEXPLAINED,] = 1.0
+    else:
+        found |= {named or (NOTHING,): p for named, p in _probabilities(candidates, best).items()}
     return tuple(sorted(found.items(), key=lambda item: -item[1]))
 
 
-def _probabilities(candidates: Sequence[Candidate]) -> dict[tuple[str, ...], float]:
-    """Of sets of effects: exp(-score / 2), normalised; fits of one set add up."""
-    least, weights = min(c.score for c in candidates), dict[tuple[str, ...], float]()
-    for c in candidates:
+def _probabilities(candidates: Sequence[Candidate], best: Candidate) -> dict[tuple[str, ...], float]:
+    """Of sets of effects: exp(-score / 2), normalised; fits of one set add up.
+
+    The best with more beside it would have to lead by SIMPLE_LEAD to be named: that is its score, too.
+    """
+    weights = dict[tuple[str, ...], float]()
+    scores = [c.score + SIMPLE_LEAD * _has_more(c, best) for c in candidates]
+    least = min(scores)
+    for c, score in zip(candidates, scores, strict=True):
         named = tuple(sorted(c.named))
-        weights[named] = weights.get(named, 0.0) + math.exp(-0.5 * min(c.score - least, 1400.0))
+        weights[named] = weights.get(named, 0.0) + math.exp(-0.5 * min(score - least, 1400.0))
     return {named: weight / sum(weights.values()) for named, weight in weights.items()}
+
+
+def _has_more(one: Candidate, best: Candidate) -> bool:
+    return bool(best.named) and set(best.named) < set(one.named)

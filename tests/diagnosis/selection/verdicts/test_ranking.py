@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import scored, verdict_of
 
+from diagnosis.criteria.selection import SIMPLE_LEAD
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.selection.verdicts.decision import verdict_on
@@ -36,8 +37,34 @@ def test_a_pair_is_one_row_of_the_ranking_at_its_own_probability():
     assert ranking["tip_drag",] == ranking["torque_bias",] == 0.0
 
 
+def test_one_more_effect_has_the_lead_that_it_needs_against_it():
+    """Else what the verdict names would be the less probable."""
+    richer = (["tip_drag", "torque_bias"], 100.0)
+    found = verdict_of(richer, (["tip_drag"], 104.0), (["entry_friction"], 110.0))
+    assert found.effects == ("tip_drag",)
+    ranking = dict(found.ranking)
+    odds = ranking["tip_drag",] / ranking["tip_drag", "torque_bias"]
+    assert odds == pytest.approx(np.exp(0.5 * (SIMPLE_LEAD - 4.0)))
+    assert ranking["tip_drag",] / ranking["entry_friction",] == pytest.approx(np.exp(3.0))
+
+
+def test_of_what_leads_by_enough_the_score_alone_counts():
+    found = verdict_of((["tip_drag", "torque_bias"], 100.0), (["tip_drag"], 112.0))
+    assert found.effects == ("tip_drag", "torque_bias")
+    ranking = dict(found.ranking)
+    assert ranking["tip_drag", "torque_bias"] / ranking["tip_drag",] == pytest.approx(np.exp(6.0))
+
+
+def test_an_effect_has_no_such_lead_against_it_where_nothing_is_named():
+    """Nothing is the answer only where it is the likeliest one."""
+    found = verdict_of(([], 100.0), (["tip_drag"], 103.0))
+    assert found.effects == ()
+    ranking = dict(found.ranking)
+    assert ranking[NOTHING,] / ranking["tip_drag",] == pytest.approx(np.exp(1.5))
+
+
 def test_where_nothing_is_known_all_of_it_is_unknown():
-    shares = dict(ranking_of([], known=False))
+    shares = dict(ranking_of([], None))
     assert shares.pop((UNEXPLAINED,)) == 1.0
     assert set(shares) == {(name,) for name in (*LIBRARY, NOTHING)}
     assert set(shares.values()) == {0.0}
