@@ -13,11 +13,13 @@ Outliers that were found are removed, and the search is repeated.
 
 The first two and the last two samples have too little on one side. They are left out if neither a line
 nor a parabola through the samples beside them comes near: should the motion have begun or ended there,
-two samples less tell nothing less. This is not repeated: it would eat into a motion that is fast there.
+two samples less tell nothing less. This comes last, when those samples have no outliers among them, and
+is not repeated: it would eat into a motion that is fast there.
 
 Source: robust local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829; Hampel's identifier.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +40,7 @@ from diagnosis.log.local_curves import interpolated, least_squares, robust_curve
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
+Look = Callable[[Array, Array, Array], tuple[Index, Array]]
 
 AT_AN_END = 2  # samples that have too little on one side
 _HALVES = (4, 7)  # neighbours on each side
@@ -45,11 +48,12 @@ _SIDE_ORDER = {4: 1, 7: 2}  # of the curve through one side of so many
 _ORDER = 3  # of the curve
 _PASSES = 4
 _STENCILS = ((1, 2), (2, 4), (3, 6))  # neighbours on each side of a cubic
+_APART = ((1, 3), (2, 5), (4, 6))  # without one in common: an outlier beside a sample is in one alone
 _LEFT_OUT_SIGMA = 3.5  # what least squares leaves out of a window
 _SCREENED_SIGMA = 2.0  # what is fitted at all: far below any threshold
 _ABOUT = 32  # samples on each side whose scatter counts
 _QUIET_SHARE = 0.4  # of these, that outliers beside them do not reach
-_QUIET_SIZE = 0.288  # that quantile of the smaller residual of two stencils, of white noise
+_QUIET_SIZE = 0.572  # that quantile of the middle one of three residuals, of white noise
 _LOUD = 1.5  # times sigma: what a local scatter comes to by chance
 _MARGIN = 1.25  # of a local scatter: half of the samples about it tell it to a fifth
 _CHUNK = 20_000  # windows that are fitted at once
@@ -79,14 +83,25 @@ def find_outliers(time_s: Array, values: Array, sigma: float) -> Outliers:
       sigma: white noise of the readings, in their unit.
     """
     rows, expected = np.zeros(values.size, bool), values.copy()
-    for again in range(_PASSES):
-        rest = np.flatnonzero(np.isfinite(values) & ~rows)
-        found, said = _pass(time_s[rest], values[rest], sigma, ends=not again)
-        if found.size == 0:
+    for _ in range(_PASSES):
+        if not _taken_out(time_s, values, sigma, _within, rows, expected):
             break
-        rows[rest[found]], expected[rest[found]] = True, said
+    _taken_out(time_s, values, sigma, _at_ends, rows, expected)
     rows &= ~_in_long_run(rows)
     return Outliers(rows=rows, expected=np.where(rows, expected, values))
+
+
+def _taken_out(
+    time_s: Array, values: Array, sigma: float, look: Look, rows: Mask, expected: Array
+) -> bool:
+    """Whether there are outliers among the remaining samples; they are added to the rows, in place."""
+    rest = np.flatnonzero(np.isfinite(values) & ~rows)
+    if not sigma > 0 or rest.size < 2 * _ABOUT:
+        return False
+    scale = _scatter_about(time_s[rest], values[rest], sigma)
+    found, said = look(time_s[rest], values[rest], scale)
+    rows[rest[found]], expected[rest[found]] = True, said
+    return bool(found.size)
 
 
 def _in_long_run(rows: Mask) -> Mask:
@@ -98,26 +113,32 @@ def _in_long_run(rows: Mask) -> Mask:
     return long
 
 
-def _pass(time_s: Array, values: Array, sigma: float, *, ends: bool) -> tuple[Index, Array]:
-    """Outliers among the remaining samples, and the values expected there.
+def _limit(count: int) -> float:
+    """By how many standard deviations an outlier is off, among so many readings."""
+    return float(-ndtri(OUTLIER_FALSE_ALARMS / (2 * len(_HALVES) * count)))
+
+
+def _within(time_s: Array, values: Array, scale: Array) -> tuple[Index, Array]:
+    """Outliers with samples on both sides, and the values expected there.
 
     Args:
-      ends: whether to look at the first and the last two as well.
+      scale: scatter of the readings near each sample, (N,).
     """
-    if not sigma > 0 or values.size < 2 * _ABOUT:
-        return np.zeros(0, int), np.zeros(0)
-    scale = _scatter_about(time_s, values, sigma)
     suspects = _screened(time_s, values, scale)
-    limit = float(-ndtri(OUTLIER_FALSE_ALARMS / (2 * len(_HALVES) * values.size)))
     rows, expected = np.zeros(values.size, bool), np.zeros(values.size)
     for half in _HALVES:
         for part in np.array_split(suspects, suspects.size // _CHUNK + 1):
-            off, said = _judged(time_s, values, scale, part, half, limit)
+            off, said = _judged(time_s, values, scale, part, half, _limit(values.size))
             rows[part[off]], expected[part[off]] = True, said[off]
-    for end in (slice(None), slice(None, None, -1)) if ends else ():
-        _add_end(time_s[end], values[end], scale[end], limit, rows[end], expected[end])
-    found = np.flatnonzero(rows)
-    return found, expected[found]
+    return np.flatnonzero(rows), expected[rows]
+
+
+def _at_ends(time_s: Array, values: Array, scale: Array) -> tuple[Index, Array]:
+    """The same of the first two samples, and of the last two."""
+    rows, expected = np.zeros(values.size, bool), np.zeros(values.size)
+    for end in (slice(None), slice(None, None, -1)):
+        _add_end(time_s[end], values[end], scale[end], _limit(values.size), rows[end], expected[end])
+    return np.flatnonzero(rows), expected[rows]
 
 
 def _add_end(
@@ -143,11 +164,10 @@ def _add_end(
 
 def _scatter_about(time_s: Array, values: Array, sigma: float) -> Array:
     """Scatter of the readings near each sample, if it is significantly above sigma; else sigma, (N,)."""
-    size = np.full(values.size, np.inf)
-    for near, far in _STENCILS[::2]:  # without a neighbour in common, so that an outlier is in one alone
-        said, gain = interpolated(time_s, values, near, far)
-        size = np.fmin(size, np.abs(values - said) / gain)
-    padded = np.pad(size[2:-2], 2 + _ABOUT, mode="reflect")
+    each = [interpolated(time_s, values, near, far) for near, far in _APART]
+    size = np.median([np.abs(values - said) / gain for said, gain in each], axis=0)
+    end = max(max(stencil) for stencil in _APART)
+    padded = np.pad(size[end:-end], end + _ABOUT, mode="reflect")
     windows = sliding_window_view(padded, 2 * _ABOUT + 1)
     rank = round(2 * _ABOUT * _QUIET_SHARE)
     local = np.partition(windows, rank, axis=1)[:, rank] / _QUIET_SIZE
