@@ -37,6 +37,8 @@ def _remedy(effect: Effect, own: Mapping[str, Interval], rig: NominalRig) -> str
     words = {name: in_words(interval) for name, interval in own.items()}
     if effect.corrects and own:
         words["constant"] = f"{_nominal(effect, rig) * next(iter(own.values())).value:.4g}"
+    if effect.same_as and own:
+        words["same"] = effect.same_as(rig, *(interval.value for interval in own.values()))
     try:
         return effect.remedy.format_map(words) or f"put into the model: {effect.title}"
     except KeyError:  # a parameter that was not fitted

@@ -140,8 +140,10 @@ class Effect:
       trial: the only trial that it concerns; empty: all.
       differs: whether its strength may be another one in each trial.
       remedy: what to change in rig or model if it is found, as an instruction; values of parameters by
-        name in braces, that of `corrects` as {constant}.
+        name in braces, that of `corrects` as {constant}, and that of `same_as` as {same}.
       corrects: constant of rig.yaml whose true value is the nominal one times the first parameter.
+      same_as: what of the rig would have to be off, and by how much, to do exactly the same, given the
+        nominal rig and the parameter values: no effect of the library, and told beside it.
       check: how to measure it separately, as an instruction.
       other_forms: names of free-form laws of its kind, which leave less if its law has another form.
     """
@@ -158,6 +160,7 @@ class Effect:
     differs: bool = False
     remedy: str = ""
     corrects: str = ""
+    same_as: Callable[..., str] | None = None
     check: str = ""
     other_forms: tuple[str, ...] = ()
 

@@ -1,5 +1,6 @@
 """What to change where an effect is found."""
 
+import numpy as np
 import pytest
 from diagnosis_fixtures import RIG
 
@@ -60,6 +61,14 @@ def test_every_effect_has_a_remedy_with_all_its_values_and_a_check(effect):
     if not effect.corrects:
         assert all(in_words(p) in said for p in parameters[effect.name].values())
     assert len(effect.check.split()) > 5
+
+
+def test_a_spring_in_the_drive_is_told_with_the_longer_free_shaft_that_does_the_same():
+    """Twist of a free shaft: torque * length / (G pi d^4 / 32)."""
+    rigidity = 1e3 * RIG.needle.shear_modulus_gpa * np.pi * RIG.needle.diameter_mm**4 / 32
+    spring = {"base_compliance": {"stiffness": value(rigidity / 36.0, "N mm / rad")}}
+    said = remedies(("base_compliance",), spring, RIG)
+    assert "a free shaft that is 36 mm longer than logged would do the same" in said
 
 
 def test_of_several_effects_each_has_its_remedy():
