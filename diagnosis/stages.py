@@ -46,6 +46,7 @@ STAGES = {
     "single effects": _coarse("fitting single effects", 0.25, 4, 32),
     "coloured noise": _whole("fitting again with coloured noise", 1.0, 0, 0),
     "finalists": _whole("fitting the best single effects to the whole log", 1.0, 1, 2),
+    "flicker noise that shows": _whole("fitting with 1/f noise that shows itself", 1.0, 0, 0),
     SCREENING_PAIRS: _coarse("screening pairs", 0.04, 27, 150),
     "pairs": _coarse("fitting pairs", 0.25, 0, 20),
     "finalists, pairs": _whole("fitting the best pairs to the whole log", 1.0, 0, 2),

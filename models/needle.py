@@ -66,6 +66,8 @@ class Needle(Record):
     """Damping of its material over its stiffness: a Kelvin-Voigt solid."""
     joint_play_deg: NonNegative = 0.0
     """Total play of a joint in the shaft; 0: there is none."""
+    joint_length_mm: NonNegative = 0.0
+    """Shaft that twists as much as the joint, a torsion spring of kappa over this; 0: it is stiff."""
     joint_from_tip_mm: NonNegative = 0.0
     """Where the joint is."""
 

@@ -6,6 +6,7 @@ noise floor, every pair of a leading effect with any other is screened, and so o
 does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
 no pair does, every effect beside each of the leading pairs is. Where two or three effects nearly explain
 it, another one is tried in place of each of them.
+Noise of 1/f that shows itself is allowed for before that, where it is all that is left.
 What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, elastic
 tissue may go along with a sliding shaft, clocks may have run before the trials, noise may grow with rate
 or torque or differ from trial to trial, outliers may be left, noise may be weakly coloured or of 1/f,
@@ -38,6 +39,7 @@ from diagnosis.selection.stages.sensors.clock_starts import clocks_before_trials
 from diagnosis.selection.stages.sensors.coloured_noise import (
     coloured_noise,
     flicker_noise,
+    flicker_noise_that_shows,
     noise_of_the_best,
     weakly_coloured_noise,
 )
@@ -72,10 +74,12 @@ STAGES: tuple[Stage, ...] = (
     finer_mesh_near_the_floor,
     stiffness_or_damping_alone,
     richer_effects,
+    flicker_noise_that_shows,
     pairs,
     richer_effects,
     imperfections_of_sensors,
     stiffness_or_damping_alone,
+    flicker_noise_that_shows,
     three_effects,
     richer_effects_in_place_of_three,
     exchanges,
@@ -86,6 +90,7 @@ STAGES: tuple[Stage, ...] = (
     best_without_each_effect,
     richer_effects_in_the_best,
     scatter_of_the_best,
+    flicker_noise_that_shows,
     finer_mesh,
     tissue_that_goes_along,
     starts_of_trials,

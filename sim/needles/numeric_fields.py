@@ -71,10 +71,18 @@ def _from_tip_mm(setup: Setup) -> Array:
 
 
 def springs_n_m_per_rad(setup: Setup) -> Array:
-    """Torsional stiffness kappa / a of every element at the start, (n,)."""
-    rigidity, nodes = setup.needle.rigidity_n_mm2 * units.N_MM2, setup.nodes_mm
-    stiffness: Array = rigidity / (np.diff(nodes) * units.MM)
-    return stiffness * setup.needle.stiffness_factors(_from_tip_mm(setup))
+    """Torsional stiffness kappa / a of every element at the start, (n,), in series with a soft joint."""
+    needle = setup.needle
+    lengths_mm = np.diff(setup.nodes_mm) / needle.stiffness_factors(_from_tip_mm(setup))
+    if needle.joint_length_mm > 0.0:
+        lengths_mm += needle.joint_length_mm * _share_of_joint(setup)
+    return np.asarray(needle.rigidity_n_mm2 * units.N_MM2 / (lengths_mm * units.MM))
+
+
+def _share_of_joint(setup: Setup) -> Array:
+    """The part of the joint that is in every element, (n,)."""
+    each = np.arange(setup.nodes_mm.size - 1)
+    return np.asarray(np.maximum(1.0 - np.abs(each - _joint_at(setup)), 0.0))
 
 
 def numeric_fields(setup: Setup) -> dict[str, Array]:

@@ -1,4 +1,4 @@
-"""A joint with play in the shaft, against closed forms.
+"""A joint in the shaft, with play or a spring, against closed forms.
 
 The shaft is so stiff that each part of it turns as one (its twist is below 0.02 deg). What lies beyond
 the joint stays until half of the play is taken up, then follows by so much less; after a reversal it
@@ -103,3 +103,33 @@ def test_play_takes_no_work(arrangement):
 def test_a_shaft_that_yields_or_creeps_has_no_joint(more):
     with pytest.raises(InvalidValue, match="joint_play_deg"):
         NITINOL.but(joint_play_deg=1.0, **more)
+
+
+@ARRANGEMENTS
+@pytest.mark.parametrize("from_tip_mm", [5.0, 31.0, 64.0])
+def test_a_spring_twists_as_so_much_more_shaft(arrangement, from_tip_mm):
+    """At a steady rate the tissue takes 0.02 N mm s / rad / mm: what lies beyond the spring loads it.
+
+    The rest of the shaft twists by less than 0.02 deg. Two elements share the spring: its load is right
+    to second order.
+    """
+    soft_mm, rate = 2e5, np.radians(30.0)
+    time_s = STEP_S * np.arange(600)
+    setup = Setup(
+        needle=STIFF.but(joint_length_mm=soft_mm, joint_from_tip_mm=from_tip_mm),
+        tissue=VISCOUS,
+        free_mm=10.0,
+        inserted_mm=60.0,
+        discretisation=Discretisation(elements=12, step_s=STEP_S, arrangement=arrangement),
+    )
+    inputs = Schedule(
+        time_s=time_s,
+        drive=np.degrees(rate) * time_s,
+        free_mm=np.full(600, 10.0),
+        inserted_mm=np.full(600, 60.0),
+        speed_mm_s=np.zeros(600),
+    )
+    run = simulate([setup], inputs)[0]
+    beyond_n_mm = 0.02 * min(from_tip_mm, 60.0) * rate
+    twist_deg = np.degrees(beyond_n_mm * soft_mm / STIFF.rigidity_n_mm2)
+    assert run.base_deg[-1] - run.tip_deg[-1] == pytest.approx(twist_deg, rel=1e-2)

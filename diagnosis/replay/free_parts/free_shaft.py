@@ -21,6 +21,7 @@ class FreeShaft:
       creep_time_s: in which it does.
       damping_time_s: damping of its material over its stiffness (models.needle).
       joint_play_deg: play of a joint in it (models.needle); 0: there is none.
+      joint_length_mm: shaft that twists as much as it, a spring (models.needle); 0: it is stiff.
       joint_from_tip_mm: where it is.
       tip_inertia_kg_m2: of what turns with its tip, besides that of the rig.
     """
@@ -35,6 +36,7 @@ class FreeShaft:
     creep_time_s: float = 0.0
     damping_time_s: float = 0.0
     joint_play_deg: float = 0.0
+    joint_length_mm: float = 0.0
     joint_from_tip_mm: float = 0.0
     tip_inertia_kg_m2: float = 0.0
 
@@ -48,6 +50,7 @@ class FreeShaft:
             creep_ratio=strength * self.creep_ratio,
             damping_time_s=strength * self.damping_time_s,
             joint_play_deg=strength * self.joint_play_deg,
+            joint_length_mm=strength * self.joint_length_mm,
             tip_inertia_kg_m2=strength * self.tip_inertia_kg_m2,
         )
 

@@ -1,4 +1,8 @@
-"""A free law of a joint in the shaft, with play."""
+"""Free laws of a joint in the shaft: with play, or a torsion spring (a kink, a flexure).
+
+The spring is told by the length of shaft that twists as much: kappa / stiffness, with the torsional
+rigidity kappa.
+"""
 
 from dataclasses import replace
 from functools import partial
@@ -11,12 +15,26 @@ from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 
-_JOINTS_AT, _PLAY_DEG = (0.1, 0.25, 0.45, 0.65), 5.0  # of the shaft from the tip on, to start with
+_JOINTS_AT = (0.1, 0.25, 0.45, 0.65)  # of the shaft from the tip on, to start with
+_PLAY_DEG, _SHARE = 5.0, 0.3  # to start with; of the shaft that twists as much
+_MOST_TIMES = 20.0  # the shaft that twists as much: it hangs on a thread
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """The law of a joint with play."""
-    return (_joint(ranges),) if Variable.TORQUE in ranges.ends else ()
+    """The laws of a joint with play, and of a soft one."""
+    return (_joint(ranges), _spring(ranges)) if Variable.TORQUE in ranges.ends else ()
+
+
+def _place(longest_mm: float) -> Parameter:
+    return Parameter(
+        name="place",
+        unit="mm",
+        low=0.0,
+        high=longest_mm,
+        start=tuple(share * longest_mm for share in _JOINTS_AT),
+        scale=0.3 * longest_mm,
+        neutral=None,
+    )
 
 
 def _joint(ranges: LogRanges) -> Family:
@@ -29,38 +47,64 @@ def _joint(ranges: LogRanges) -> Family:
         start=(_PLAY_DEG,) * len(_JOINTS_AT),
         scale=_PLAY_DEG,
     )
-    place = Parameter(
-        name="place",
-        unit="mm",
-        low=0.0,
-        high=longest_mm,
-        start=tuple(share * longest_mm for share in _JOINTS_AT),
-        scale=0.3 * longest_mm,
-        neutral=None,
-    )
     return Family(
         effect=Effect(
             name="joint of the shaft over position",
             title="a joint in the shaft, with play",
             place=Place.NEEDLE,
-            parameters=(play, place),
+            parameters=(play, _place(longest_mm)),
             apply=_apply_joint,
             differences=(1e-2,),
         ),
         places={Place.NEEDLE: 1.0},
         says="position",
         title="play of the shaft from the tip to there",
-        curve=partial(_play, longest_mm),
+        curve=partial(_beyond, longest_mm),
         x_unit="mm from the tip",
         unit="deg",
     )
 
 
-def _play(longest_mm: float, play_deg: float, place_mm: float) -> Points:
-    return (0.0, place_mm, place_mm + 1.0, longest_mm + 2.0), (0.0, 0.0, play_deg, play_deg)
+def _spring(ranges: LogRanges) -> Family:
+    longest_mm = ranges.longest_mm
+    length = Parameter(
+        name="length",
+        unit="mm",
+        low=0.0,
+        high=_MOST_TIMES * longest_mm,
+        start=(_SHARE * longest_mm,) * len(_JOINTS_AT),
+        scale=_SHARE * longest_mm,
+    )
+    return Family(
+        effect=Effect(
+            name="spring in the shaft over position",
+            title="a torsion spring in the shaft",
+            place=Place.NEEDLE,
+            parameters=(length, _place(longest_mm)),
+            apply=_apply_spring,
+            differences=(1e-2,),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="position",
+        title="further twist of the shaft from the tip to there, as that of so much of its length",
+        curve=partial(_beyond, longest_mm),
+        x_unit="mm from the tip",
+        unit="mm",
+    )
+
+
+def _beyond(longest_mm: float, size: float, place_mm: float) -> Points:
+    """What a joint adds between the tip and a place."""
+    return (0.0, place_mm, place_mm + 1.0, longest_mm + 2.0), (0.0, 0.0, size, size)
 
 
 def _apply_joint(rig: RigParameters, play_deg: float, place_mm: float) -> RigParameters:
     return replace(
         rig, free=FreeLaw(shaft=FreeShaft(joint_play_deg=play_deg, joint_from_tip_mm=place_mm))
+    )
+
+
+def _apply_spring(rig: RigParameters, length_mm: float, place_mm: float) -> RigParameters:
+    return replace(
+        rig, free=FreeLaw(shaft=FreeShaft(joint_length_mm=length_mm, joint_from_tip_mm=place_mm))
     )

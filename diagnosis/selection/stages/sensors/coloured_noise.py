@@ -5,9 +5,11 @@ noise that the best of them leaves. Where nothing explains a log, and the best l
 that shows less is allowed for if it does; and noise may go on as 1 / f. Where it shows that at
 frequencies at which effects leave little, that is enough; where it begins below, both sensors have to
 show it, what is left of them must have nothing in common, little may be left, and one effect may be
-beside it at most, as beside a drift.
+beside it at most, as beside a drift. The former is looked for before more effects are, where the best
+leaves no more than noise does; else both come last.
 """
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from diagnosis.criteria.noise import (
@@ -33,7 +35,7 @@ from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
 STAGE, OF_THE_BEST, WEAK = "coloured noise", "noise of the best", "weakly coloured noise"
-FLICKER = "flicker noise"
+FLICKER, FLICKER_SHOWS = "flicker noise", "flicker noise that shows"
 
 
 def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
@@ -82,7 +84,24 @@ def weakly_coloured_noise(state: SearchState, workers: Workers) -> SearchState:
 
 def flicker_noise(state: SearchState, workers: Workers) -> SearchState:
     """The state with noise that goes on as 1 / f, where only that explains the log."""
-    for sensors in (_coloured_flicker, _slow_flicker):
+    return _with_flicker(FLICKER, state, workers, (_coloured_flicker, _slow_flicker))
+
+
+def flicker_noise_that_shows(state: SearchState, workers: Workers) -> SearchState:
+    """The same, where what the best leaves is as small as noise, though not as white, and shows that at
+    frequencies at which effects leave little."""
+    if not state.best.floor.small:
+        return state
+    return _with_flicker(FLICKER_SHOWS, state, workers, (_coloured_flicker,))
+
+
+def _with_flicker(
+    stage: str,
+    state: SearchState,
+    workers: Workers,
+    shown: Sequence[Callable[[SearchState], dict[str, float]]],
+) -> SearchState:
+    for sensors in shown:
         state, explained = state.rechecked()
         if explained:
             break
@@ -94,7 +113,7 @@ def flicker_noise(state: SearchState, workers: Workers) -> SearchState:
         noise = with_colour(replace(state.problem, noise=noise), state.best.fit)
         contenders = _with_few_effects(state) if slow else state
         if contenders.candidates and _may_explain(contenders.renoised(noise), apart=slow):
-            state = _kept_if_it_explains(FLICKER, state, noise, workers, contenders)
+            state = _kept_if_it_explains(stage, state, noise, workers, contenders)
     return state
 
 

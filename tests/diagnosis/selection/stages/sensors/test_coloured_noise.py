@@ -128,6 +128,28 @@ def test_noise_may_go_on_as_one_over_f_where_only_that_explains_the_log():
     assert module.flicker_noise(after, Workers()).problem is after.problem  # it is explained
 
 
+def grown(state, factor):
+    """The state with residuals of the best that are so many times as large."""
+    floor = state.best.floor.times(factor)
+    return replace(state, candidates=(replace(state.best, floor=floor),))
+
+
+def test_it_is_looked_for_before_more_effects_are_where_the_best_leaves_no_more_than_noise():
+    state = start_of_search(of_the_tip(NOMINAL), effects=())
+    state = module.coloured_noise(module.nominal_rig(state, Workers()), Workers())
+    limit = state.best.floor.gap_limit / state.best.floor.gap
+    above = grown(state, 1.01 * limit)
+    assert module.flicker_noise_that_shows(above, Workers()) is above
+    within = grown(state, 0.99 * limit)
+    assert module.flicker_noise_that_shows(within, Workers()).problem.noise.flicker
+
+
+def test_what_shows_where_effects_do_is_not_looked_for_so_early():
+    state = module.nominal_rig(start_of_search(of_both(NOMINAL), effects=()), Workers())
+    state = grown(module.coloured_noise(state, Workers()), 0.5)
+    assert module.flicker_noise_that_shows(state, Workers()).problem is state.problem
+
+
 @pytest.mark.parametrize(("gap", "told"), [(1.25, True), (1.35, False)])
 def test_where_little_is_left_less_of_one_over_f_is_enough(gap, told, monkeypatch):
     """White noise fits worse by 15; what is left of noise that lasts for seconds is little."""
