@@ -1,11 +1,14 @@
 """The course of a free-form law in words, where the log determines it."""
 
 import statistics
+from collections.abc import Sequence
+from itertools import pairwise
 
 from diagnosis.freeform.law_curve import Law
 
 _WIDEST, _FEWEST = 4.0, 3  # width of a band that tells something, of the median of |curve|; points
 _STRONGER = 1.05  # times as strong one way, from which that is told
+_ABRUPT = 0.02  # of the range of x, within which a step is one
 _MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises or falls
 
 
@@ -22,12 +25,22 @@ def course_of(law: Law) -> str:
     if high == low:
         return f"{law.title} is {low:.3g}{own}"
     rises = y[-1] - y[0]
+    unit = "" if law.x_unit == "-" else f" {law.x_unit}"
+    if (at := _step_at(x, y)) is not None:
+        return f"{law.title} steps from {y[0]:.3g} to {y[-1]:.3g}{own} at {at:.3g}{unit}"
     if abs(rises) >= _MOSTLY * (high - low):
         verb = "rises" if rises > 0 else "falls"
-        unit = "" if law.x_unit == "-" else f" {law.x_unit}"
         between = f"between {x[0]:.3g} and {x[-1]:.3g}{unit}"
         return f"{law.title} {verb} from {y[0]:.3g} to {y[-1]:.3g}{own} {between}"
     return f"{law.title} varies between {low:.3g} and {high:.3g}{own}"
+
+
+def _step_at(x: Sequence[float], y: Sequence[float]) -> float | None:
+    """Where a curve that is level on both sides steps; None: it has another form."""
+    steps = [i for i, (here, next_) in enumerate(pairwise(y)) if here != next_]
+    if len(steps) != 1 or x[steps[0] + 1] - x[steps[0]] > _ABRUPT * (x[-1] - x[0]):
+        return None
+    return 0.5 * (x[steps[0]] + x[steps[0] + 1])
 
 
 def _by_direction(back: float, forth: float, unit: str) -> str:

@@ -86,7 +86,7 @@ def _spring(ranges: LogRanges) -> Family:
         ),
         places={Place.NEEDLE: 1.0},
         says="position",
-        title="further twist of the shaft from the tip to there, as that of so much of its length",
+        title="length of shaft that twists as much as a joint between the tip and there",
         curve=partial(_beyond, longest_mm),
         x_unit="mm from the tip",
         unit="mm",

@@ -38,6 +38,19 @@ def test_the_course_of_a_law_is_told(changes, said):
     assert said in course_of(replace(LAW, **changes))
 
 
+@pytest.mark.parametrize(
+    ("x", "y", "said"),
+    [
+        ((0, 59.5, 60.5, 230), (0, 0, 80, 80), "steps from 0 to 80 N mm / mm at 60 mm from the tip"),
+        ((0, 20, 60, 230), (0, 0, 80, 80), "rises from 0 to 80 N mm / mm between 0 and 230 mm"),
+        ((0, 59.5, 60.5, 230), (0, 0, 80, 90), "rises from 0 to 90 N mm / mm between 0 and 230 mm"),
+    ],
+)
+def test_a_step_is_told_with_its_place(x, y, said):
+    law = replace(LAW, x=x, y=y, low=y, high=y, x_unit="mm from the tip")
+    assert said in course_of(law)
+
+
 def test_a_law_of_one_layer_is_not_told_as_none_where_its_level_is_uncertain():
     """Nothing outside of the layer is certain; the level in it is known to a factor."""
     y, high = (0.0, 0.0, 0.004, 0.004, 0.0), (0.0, 0.0, 0.02, 0.02, 0.0)
