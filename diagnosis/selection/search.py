@@ -5,13 +5,13 @@ log; the best of these are then fitted on the log itself. If none of them brings
 noise floor, every pair of a leading effect with any other is screened, and so on as before. If one
 does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
 no pair does, every effect beside each of the leading pairs is. Where two or three effects nearly explain
-it, another one is tried in place of each of them.
-Noise of 1/f that shows itself is allowed for before that, where it is all that is left.
-What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, elastic
-tissue may go along with a sliding shaft, clocks may have run before the trials, noise may grow with rate
-or torque or differ from trial to trial, outliers may be left, noise may be weakly coloured or of 1/f,
-the torque may drift, readings may jump, and those of the tip may drift. What is far above the noise all
-the same is compared with plainer sets that leave hardly more.
+it, another one is tried in place of each of them. Noise of 1/f that shows itself, and is all that is
+left, is allowed for before any of that. What the scatter of the rig's own constants explains is `none`.
+Where nothing explains the log, elastic tissue may go along with a sliding shaft, clocks may have run
+before the trials, noise may grow with rate or torque or differ from trial to trial, outliers may be
+left, noise may be weakly coloured or of 1/f, the torque may drift, readings may jump, and those of the
+tip may drift. What is far above the noise all the same is compared with plainer sets that leave hardly
+more.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
 dropped.

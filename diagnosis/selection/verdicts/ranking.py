@@ -30,7 +30,7 @@ def ranking_of(
 def _probabilities(candidates: Sequence[Candidate], best: Candidate) -> dict[tuple[str, ...], float]:
     """Of sets of effects: exp(-score / 2), normalised; fits of one set add up.
 
-    The best with more beside it would have to lead by SIMPLE_LEAD to be named: that is its score, too.
+    The best with more beside it would have to lead by SIMPLE_LEAD to be named, which counts against it.
     """
     weights = dict[tuple[str, ...], float]()
     scores = [c.score + SIMPLE_LEAD * _has_more(c, best) for c in candidates]
