@@ -17,13 +17,15 @@ about 18, less a chi-square of two: it is ahead by less than 5, which is undecid
 forms of the richer one (selection/equivalence/weak_forms.py) may come nearer: 5 to 8 behind strong dry
 friction in 3 of 15 logs, ahead of weak one as often as behind. Set on seeds 6, 9, 774 and 775."""
 SCATTER_CERTAIN_SIGMA = 5.0
+"""Stiffness or damping alone is named if it is off by so many standard deviations."""
 SCATTER_LEAST = 0.003
-"""Stiffness or damping alone is named if it is off for certain, and by ten times what two simulations of
-the same rig differ by."""
-SHIFT_LIMIT, CLEAR_SHIFT = 12.0, 1.5
+"""And by this share: ten times what two simulations of the same rig differ by."""
+SHIFT_LIMIT = 12.0
 """Held-out shift statistic, 1 is expected. What is true comes to 9.4 at most where stick and slip is
-rough (250 blind logs), what only mimics it to 15, 21, 39, 45. Set on seeds 1, 2 and 5. And by how much
-it is clearly above its limit: then an imperfection of a sensor beside it changes nothing. A choice."""
+rough (250 blind logs), what only mimics it to 15, 21, 39, 45. Set on seeds 1, 2 and 5."""
+CLEAR_SHIFT = 1.5
+"""Times its limit, from which it is clearly above: then an imperfection of a sensor beside it changes
+nothing. A choice."""
 HELD_OUT_GAP = 5.0
 """Gap on held-out trials, by fits to the others, that no explanation may leave. What is true left up to
 2.6 where one trial tells most of it (1000 blind logs); stiction in place of dry friction 367, once."""
@@ -41,16 +43,27 @@ over by stiffness and damping, since the linear model that it began from is far 
 SLOPES_OF_ITS_OWN = 1.15
 """Gap up to which a fit to the log ends with slopes from runs as fine as it is, since it may explain the
 log; slopes from half as fine ones lead there, and are good enough above. A choice that saves time."""
-MOST_PAIRS, PAIR_BASES, FITS_AT_ONCE = 20, 6, 4
-"""Pairs that are fitted, leading single effects that they build on, fits between two looks."""
-MOST_TRIPLES, TRIPLE_BASES, TRIPLE_OTHERS, TRIPLE_SHARE = 12, 4, 12, 0.5
-"""Sets of three that are fitted, leading pairs that they build on, further ones where none of those has
-a third, and the share that a third effect has to promise of what the pair leaves beyond noise: the true
-one takes off all of it, and promised 0.83 to 1 on 7 blind logs of seed 77."""
-EXCHANGE_GAP, MOST_EXCHANGED = 1.5, 6
-"""Gap of a leading set of two or three effects up to which one of them is exchanged for others, and sets
-of which one is exchanged that are fitted; and of what nearly explains a log, so that an imperfection of
-a sensor beside it may. A choice: what imitates one of three effects leaves little."""
+MOST_PAIRS = 20
+"""Pairs that are fitted. A choice that saves time, as the next five are."""
+PAIR_BASES = 6
+"""Leading single effects that they build on."""
+FITS_AT_ONCE = 4
+"""Fits between two looks at what they leave."""
+MOST_TRIPLES = 12
+"""Sets of three that are fitted."""
+TRIPLE_BASES = 4
+"""Leading pairs that they build on."""
+TRIPLE_OTHERS = 12
+"""Further pairs, where none of those has a third effect."""
+TRIPLE_SHARE = 0.5
+"""Share that a third effect has to promise of what the pair leaves beyond noise: the true one takes off
+all of it, and promised 0.83 to 1 on 7 blind logs of seed 77."""
+EXCHANGE_GAP = 1.5
+"""Gap of a leading set of two or three effects up to which one of them is exchanged for others; and of
+what nearly explains a log, so that an imperfection of a sensor beside it may. A choice: what imitates
+one of three effects leaves little."""
+MOST_EXCHANGED = 6
+"""Sets of which one effect is exchanged that are fitted. A choice that saves time."""
 WORTH_THE_LOG = 0.05
 """Share that a richer set has to take off what the set that it builds on leaves beyond noise, on the
 decimated log, before it is fitted to the log itself, where nothing explains that: the true one takes off
@@ -63,25 +76,35 @@ DRIFT_PREDICTED_GAP = 1.15
 """Residual that slopes have to predict beside a drift, in sigma, at most, before all is fitted again.
 Measured: at most 1.04 in 12 logs that a drift explains, 1.17 to 1.78 in 9 searches of logs that it does
 not."""
-FAULT_CONTENDERS, FAULT_PAIRS = 12, 4
+FAULT_CONTENDERS = 12
 """Leading explanations of the decimated log that are fitted with a drift, or with jumps of a reading;
 half of them single effects: without it these leave more than any pair of which one effect does what it
-does; and how many pairs with the leading one that have not led without it."""
-JUMP_SHARE, JUMPS_SHARE, JUMP_LEAST_SAMPLES, MOST_JUMPS = 0.3, 0.8, 20, 3
+does."""
+FAULT_PAIRS = 4
+"""Pairs with the leading one, which have not led without it, that are fitted so."""
+JUMP_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a jump of a reading has to take off before it is
-allowed for, and what it has to take off times those that may still be made, since the largest comes
-first; samples on either side of it, of which 20 tell a jump of one sigma; jumps of a log at most.
-Choices; the search tries them last."""
+allowed for. A choice, as the next three are; the search tries jumps last."""
+JUMPS_SHARE = 0.8
+"""The same, times the jumps that may still be made, since the largest comes first."""
+JUMP_LEAST_SAMPLES = 20
+"""Samples on either side of a jump, of which so many tell one of one sigma."""
+MOST_JUMPS = 3
+"""Jumps of a log at most."""
 JUMP_PARAMETERS = 3.0
 """Parameters that a jump of a reading counts for beside a drift: its trial, its time and its size."""
-DRIFT_RANGE_SIGMA, DRIFT_ALIKE_SIGMA, DRIFT_ONE_COURSE_SIGMA, DRIFT_ALIKE = 15.0, 6.0, 3.0, 0.3
+DRIFT_RANGE_SIGMA = 15.0
 """Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise: half of
-it to one side and the other; more is no roughness but a fault, and the answer stays unknown. So it does
-for less where the drift is a line of one rate in all trials, to that share: that is a law. Another
-course that is the same in all trials is so even more. Set on one log, of a base that turns by 9 sigma
-in each trial. Zeros of a torque that are further apart than the second, and than it drifts by within
-trials, are no drift where nothing else is missing: 13 sigma beside 4 in a log whose cell feels the
-axial force."""
+it to one side and the other; more is no roughness but a fault, and the answer stays unknown."""
+DRIFT_ALIKE_SIGMA = 6.0
+"""The same where the drift is a line of one rate in all trials: that is a law. Zeros of a torque that
+are further apart, and than it drifts by within trials, are no drift where nothing else is missing: 13
+sigma beside 4 in a log whose cell feels the axial force."""
+DRIFT_ONE_COURSE_SIGMA = 3.0
+"""The same where it is another course that is the same in all trials, which is a law even more. Set on
+one log, of a base that turns by 9 sigma in each trial."""
+DRIFT_ALIKE = 0.3
+"""Share by which drifts of the trials may differ, and are one rate or one course."""
 DRIFT_OF_TIP_ALONE_SIGMA = 4.0
 """What a tip sensor may drift by over all trials where nothing but an offset of it is missing: noise
 that is correlated over seconds wanders so far. More, or another zero in each trial, is itself what the
@@ -98,16 +121,20 @@ a drift of the torque: at most 2.5; a torque sensor that feels the axial force: 
 drift of the tip by 3 to 7 sigma: at most 3.7."""
 IMPERFECT_BASES = 4
 """Leading explanations with an imperfection of a sensor, to which another one is added."""
-FINALISTS, MOST_FINALISTS = 4, 8
+FINALISTS = 4
+"""Candidates that are fitted on the log itself, at least."""
+MOST_FINALISTS = 8
+"""The same at most: those within SIMPLE_LEAD of the best on the decimated log, of which a weak effect
+has many."""
 CONTENDING = 60.0
-"""Candidates that are fitted on the log itself: so many at least, and up to the second number those
-within SIMPLE_LEAD of the best on the decimated log, of which a weak effect has many. And the score
-behind the best beyond which they are out of the question: six times the largest lead that any decision
-asks for, since the decimated log weighs costs to 5 % only."""
-PART_LEAD, NEARLY = 30.0, 1.1
+"""Score behind the best beyond which they are out of the question: six times the largest lead that any
+decision asks for, since the decimated log weighs costs to 5 % only."""
+PART_LEAD = 30.0
 """Score by which an explanation has to lead a part of it at the noise floor, for every effect more, if
-that shifts over trials, samples are means, or the part is above the floor by up to this factor: one more
-effect may take up what a replay does not resolve. A choice; in 4000 samples, an effect of 0.1 sigma."""
+that shifts over trials, samples are means, or the part is nearly at the floor: one more effect may take
+up what a replay does not resolve. A choice; in 4000 samples, an effect of 0.1 sigma."""
+NEARLY = 1.1
+"""Times the limits of the noise floor, up to which an explanation is nearly at it. A choice."""
 UNRESOLVED_SHARE = 1e-4
 """Share of a reading that no model of a needle resolves. Measured: independent solvers of the contract
 differ by 1e-5 to 2e-4 of the torque; a choice for rigs, which are no better."""
@@ -120,12 +147,15 @@ NOMINAL_LEAD = 10.0
 
 # What no log can tell apart (selection/equivalence/)
 
-EQUIVALENT_SIZE, EQUIVALENT_FITS = 3, 3
+EQUIVALENT_SIZE = 3
+"""Effects of an equivalent set at most."""
+EQUIVALENT_FITS = 3
+"""Sets of one size that are fitted."""
 EQUIVALENT_LEAVES = 0.01
-"""Effects of an equivalent set at most, sets of one size that are fitted, and share of what the chosen
-explanation changes, as a sum of squares, by which the two may differ: a tenth as an amplitude. Beside
-it SIMPLE_LEAD is the largest cost, which is the smaller from a gap of 1.03 sigma on; without the share
-a weak effect would have the whole library for company. A choice; no log was looked at."""
+"""Share of what the chosen explanation changes, as a sum of squares, by which an equivalent set may
+differ from it: a tenth as an amplitude. Beside it SIMPLE_LEAD is the largest cost, which is the smaller
+from a gap of 1.03 sigma on; without the share a weak effect would have the whole library for company. A
+choice; no log was looked at."""
 EQUIVALENT_PART = 0.5
 """Share of the rest that one more effect of a set may leave: what takes less off is none."""
 
