@@ -1,40 +1,54 @@
 """Laws that no library holds (freeform/)."""
 
 CLOSED_GAP = 1.1
-FREE_LAW_GAIN, FREE_LAW_LEAVES = 0.95, 0.25
-"""Gap on unseen trials up to which a free-form law closes it, and times the gap of the library's nearest
-explanation that it has to come below to be told; or, where that is near the noise, times the variance
-that it leaves beyond it. Choices: no verdict rests on them."""
+"""Gap on unseen trials up to which a free-form law closes it. A choice: no verdict rests on it."""
+FREE_LAW_GAIN = 0.95
+"""Times the gap of the library's nearest explanation, below which a law has to come to be told. A
+choice: no verdict rests on it."""
+FREE_LAW_LEAVES = 0.25
+"""The same where that is near the noise, times the variance that it leaves beyond it. A choice."""
 LAW_OPEN = 1.0
 """Variance of a prediction, in that of the noise, from which the trials of its fit tell nothing of a law
 there. Physical: as much as the noise. In five logs of the twenty-seventh rig any limit from 0.05 to 2
 leaves the gap the same to 0.06."""
-PATIENCE, FREEDOM = 0.1, 4.0
-"""Inverse of the power by which what a free-form law leaves weighs for its place; and parameters that
-weigh as a factor of e. Choices: far above the noise 10 % more have a seventh of the weight."""
+PATIENCE = 0.1
+"""Inverse of the power by which what a free-form law leaves weighs for its place. A choice: far above
+the noise 10 % more have a seventh of the weight."""
+FREEDOM = 4.0
+"""Parameters that weigh as a factor of e there. A choice."""
 FLOOR = 0.1
 """Variance beyond the noise, in that of the noise, that hardly counts in these weights. A choice."""
-COMPANION, CHOICE = 4.0, 2.0
+COMPANION = 4.0
 """Parameters that an effect or a law beside a law counts for in these weights, as two things are then
-missing; and the choice of a plain law among some. Choices."""
-SECOND, LEAST_WEIGHT = 0.5, 0.01
-"""Weight of the place of a law beside the leading one, in that of the leading one; and that of a place
-that no law favours. Choices."""
-STEPS_GAIN, STEPS_MOST, STEPS_SHARE = 50.0, 10, 0.9
+missing. A choice."""
+CHOICE = 2.0
+"""The same of the choice of a plain law among some. A choice."""
+SECOND = 0.5
+"""Weight of the place of a law beside the leading one, in that of the leading one. A choice."""
+LEAST_WEIGHT = 0.01
+"""Weight of a place that no law favours. A choice."""
+STEPS_GAIN = 50.0
 """Steps of a reading that begin a law of several: what each takes off the cost at least (by chance 20
-once in a thousand logs), how many, and their share of the nominal residual beyond noise: 0.986 of a
-torque sensor that zeroes itself, 0.72 to 0.85 of three other laws that ten steps imitate. Choices."""
+once in a thousand logs). A choice."""
+STEPS_MOST = 10
+"""How many of them at most. A choice."""
+STEPS_SHARE = 0.9
+"""Their share of the nominal residual beyond noise, at least: 0.986 of a torque sensor that zeroes
+itself, 0.72 to 0.85 of three other laws that ten steps imitate. A choice."""
 FINAL_NUMBERS = 90
 """Numbers that free-form laws may have in all that go to the log itself, if they are more than two: each
 is a simulation of it. A choice that saves time."""
-PLAINER_LEAVES, PLAINER_SETS = 1.02, 2
+PLAINER_LEAVES = 1.02
 """Residual of a set of fewer parameters over that of the best, up to which it is told as the nearest
-explanation where both are above FAR_GAP; and how many such sets go to the log itself. Choices: far
-above the noise a likelihood that knows noise alone prefers any law with more freedom. No verdict rests
-on it."""
-AS_NEAR_LEAVES, AS_NEAR_SETS = 1.1, 6
+explanation where both are above FAR_GAP: far above the noise a likelihood that knows noise alone prefers
+any law with more freedom. A choice: no verdict rests on it."""
+PLAINER_SETS = 2
+"""How many such sets go to the log itself. A choice."""
+AS_NEAR_LEAVES = 1.1
 """Residual on the decimated log over that of the nearest explanation, up to which other sets are told to
-come about as near, and how many of them. Choices: no verdict rests on them."""
+come about as near. A choice: no verdict rests on it."""
+AS_NEAR_SETS = 6
+"""How many of them are told. A choice."""
 FAR_GAP = 1.6
 """Gap on the log above which free-form laws are not fitted to their end on it, plain laws are not looked
 for in their place, and what comes nearest is checked by runs half as fine. A choice: no verdict rests on

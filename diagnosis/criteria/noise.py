@@ -1,19 +1,23 @@
 """The colour and the drift of noise (prepare/noise/)."""
 
-COLOUR_WINDOW_S, COLOUR_ABOVE_HZ = 2.0, 1.5
+COLOUR_WINDOW_S = 2.0
+"""Length of the windows from which the spectrum of noise is taken."""
 COLOUR_WINDOWS = 12
+"""Windows at least."""
+COLOUR_ABOVE_HZ = 1.5
+"""Frequency from which on it is looked at: above, effects leave little."""
 COLOUR_LONGEST_S = 0.3
+"""Physical: what is correlated for longer is drift and not noise."""
 COLOUR_CHI_SQUARE = 20.0
-COLOUR_LEAST_SHARE = 0.2
-COLOUR_AT_ONCE_SHARE = 0.5
-COLOUR_OPEN = 4.0
 """Noise is coloured where white noise alone fits its spectrum worse by so much chi-square (derived: of
-two more parameters, once in 20 000 sensors by chance) and so large a share of its variance is: what a
-right explanation leaves passes for less. What effects leave of the nominal rig passed for 0.2 to 0.5 in
-5 of 187 sensors with white noise and for more in one, so that there half of it is asked for.
-The spectrum is taken from at least so many windows of so many seconds, from the frequency on above which
-effects leave little; colours within so much chi-square of the best are open. Physical: what is
-correlated for longer is drift and not noise."""
+two more parameters, once in 20 000 sensors by chance)."""
+COLOUR_LEAST_SHARE = 0.2
+"""And where so large a share of its variance is: what a right explanation leaves passes for less."""
+COLOUR_AT_ONCE_SHARE = 0.5
+"""The same of what the nominal rig leaves: what effects leave of it passed for 0.2 to 0.5 in 5 of 187
+sensors with white noise and for more in one."""
+COLOUR_OPEN = 4.0
+"""Chi-square of the best within which colours are open."""
 UNEVEN_ROWS = 0.1
 """Spread of the middle half of the steps between rows / their median, from which noise may be correlated
 from row to row rather than in time. Derived: below, rows lie nearly evenly and both are the same."""
@@ -37,15 +41,19 @@ fourth order takes 7 to 23, through one of second order 24 and more, of which th
 COLOUR_LEAST_PART, COLOUR_OSCILLATOR = 0.05, 6.0
 """Share of the variance that each part of the noise has to have at least, and by how much chi-square an
 oscillator has to be better than a process: three for each of its two more parameters, a choice."""
-COLOUR_WEAK_CHI_SQUARE, COLOUR_WEAK_GAP = 10.0, 1.3
-"""Chi-square that is enough where only that explains the log (derived: once in 150 sensors by chance),
-and what white noise may leave of such a colour: that of half of the variance leaves 1.4."""
-FLICKER_GAP, FLICKER_ABOVE_HZ, FLICKER_COMMON_SIGMA = 1.1, 0.5, 3.0
+COLOUR_WEAK_CHI_SQUARE = 10.0
+"""Chi-square that is enough where only that explains the log (derived: once in 150 sensors)."""
+COLOUR_WEAK_GAP = 1.3
+"""What white noise may leave of such a colour: that of half of the variance leaves 1.4."""
+FLICKER_GAP = 1.1
 """Residual that a leading explanation may leave in noise of 1/f before it is fitted in it: a needle that
-lacks nothing else left 1.00 and 1.05 in two such logs, and 1.1 is what is asked of free-form laws. The
-frequency from which on noise of 1/f is looked for that begins near 1 Hz: three waves of it in windows of
-6 s. And the correlation of what is left of tip and torque, in its standard deviations, that noise of two
-sensors may have by chance (derived: once in 370)."""
+lacks nothing else left 1.00 and 1.05 in two such logs, and 1.1 is what is asked of free-form laws."""
+FLICKER_ABOVE_HZ = 0.5
+"""The frequency from which on noise of 1/f is looked for that begins near 1 Hz: three waves of it in
+windows of 6 s."""
+FLICKER_COMMON_SIGMA = 3.0
+"""Correlation of what is left of tip and torque, in its standard deviations, that noise of two sensors
+may have by chance (derived: once in 370)."""
 FLICKER_EXPONENTS = (1.0, 1.2)
 """Powers of 1 / f that flicker noise may have. One log that lacks nothing had the second, and 1 / f left
 means over seconds 1.6 times as large; steeper noise would hide more of what effects leave. A choice."""
@@ -63,13 +71,16 @@ LEAST_GAP = 0.7
 unit (prepare/noise/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
 
 DRIFT_SIZES_SIGMA = (0.25, 0.5, 1.0, 2.0, 4.0)
-DRIFT_ALLOWED_SIGMA = (2.0, 4.0)
-DRIFT_FASTEST_S, DRIFT_SIZE_OF_FASTEST = 0.75, 2.0
-DRIFT_MOST_SHAPES = 160
 """Physical: what a sensor of a lab drifts by within a trial, in sigma of its noise: the likeliest of
-these is allowed for, and before that is known one of two, the second where the first explains nothing;
-period of the fastest shape of a drift of up to that size beside the noise of a sample, faster in
-proportion for more; shapes at most: of a random walk so many leave 0.2 sigma."""
+these is allowed for."""
+DRIFT_ALLOWED_SIGMA = (2.0, 4.0)
+"""Before that is known: one of these, the second where the first explains nothing."""
+DRIFT_FASTEST_S = 0.75
+"""Period of the fastest shape of a drift of DRIFT_SIZE_OF_FASTEST beside the noise of a sample."""
+DRIFT_SIZE_OF_FASTEST = 2.0
+"""In sigma; larger drifts have faster shapes, in proportion."""
+DRIFT_MOST_SHAPES = 160
+"""Shapes at most: of a random walk so many leave 0.2 sigma."""
 DRIFT_START_SIGMA = 3.0
 """Standard deviations by which every trial has to begin off zero, or all of them on average, for a drift
 to be as good as an offset: derived, by chance once in 400 logs of a sensor that was zeroed before the
