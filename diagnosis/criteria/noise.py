@@ -30,17 +30,22 @@ COLOUR_FAR_ABOVE_CLAIM = 30.0
 about a sensor, so that it is the rig that shakes. A friction damper with play, whose load cell is 34
 times better than its torque scatters, left all that no model explains to noise of 9 and 13 Hz, and
 20 N mm of the 25 of its dry friction."""
-COLOUR_MOST_PARTS, COLOUR_OSCILLATES_ABOVE_HZ, COLOUR_PARTS_GAP = 3, 4.0, 2.0
-"""Correlated parts that noise may have, each for COLOUR_CHI_SQUARE; the frequency from which on it may
-oscillate; and what the residual of a sensor may come to for more than one part. Physical: a needle is
-turned by hand or drive at less than 4 Hz, and what a model lacks there must not pass for noise. Nor must
-the swinging of a rig: of a friction damper with play, 3 sigma of it were noise of 5 Hz."""
+COLOUR_MOST_PARTS = 3
+"""Correlated parts that noise may have, each for COLOUR_CHI_SQUARE."""
+COLOUR_OSCILLATES_ABOVE_HZ = 4.0
+"""Frequency from which on it may oscillate. Physical: a needle is turned by hand or drive at less than
+4 Hz, and what a model lacks there must not pass for noise."""
+COLOUR_PARTS_GAP = 2.0
+"""What the residual of a sensor may come to for more than one part: the swinging of a rig must not pass
+for noise either. Of a friction damper with play, 3 sigma of it were noise of 5 Hz."""
 COLOUR_MOST_ORDER = 24
 """Values before that an autoregression of the noise may use: white noise through a Butterworth filter of
 fourth order takes 7 to 23, through one of second order 24 and more, of which the last hardly tell."""
-COLOUR_LEAST_PART, COLOUR_OSCILLATOR = 0.05, 6.0
-"""Share of the variance that each part of the noise has to have at least, and by how much chi-square an
-oscillator has to be better than a process: three for each of its two more parameters, a choice."""
+COLOUR_LEAST_PART = 0.05
+"""Share of the variance that each part of the noise has to have at least. A choice."""
+COLOUR_OSCILLATOR = 6.0
+"""Chi-square by which an oscillator has to be better than a process: three for each of its two more
+parameters, a choice."""
 COLOUR_WEAK_CHI_SQUARE = 10.0
 """Chi-square that is enough where only that explains the log (derived: once in 150 sensors)."""
 COLOUR_WEAK_GAP = 1.3
@@ -61,11 +66,14 @@ COLOURED_BLOCK_S = 2.0
 """Blocks whose means have to be those of noise, too, where it is coloured: seven times the longest
 correlation time, so that they are as good as independent. Coloured noise is strong where effects are,
 and SLOW_BLOCK alone, some tenths of a second, would not see them."""
-SWINGS_CHANCE, SWINGS_SHARE, SWINGS_LEAST_PERIODS = 1e-6, 0.06, 5.0
-"""Chance of such a line in the spectrum of white residuals, and its share of the variance before they
-were whitened, from which coloured noise is none; periods in a trial. Measured: in 4 logs with coloured
-noise the share is 0.013 to 0.045, with chances above 0.1; of dry friction in pulses 0.10 and 0.24, at
-1e-51."""
+SWINGS_CHANCE = 1e-6
+"""Chance of a line in the spectrum of white residuals, from which coloured noise is none. Measured:
+above 0.1 in 4 logs with coloured noise, 1e-51 of dry friction in pulses."""
+SWINGS_SHARE = 0.06
+"""And the share of that line in the variance before they were whitened. Measured: 0.013 to 0.045 in
+those logs, 0.10 and 0.24 of dry friction in pulses."""
+SWINGS_LEAST_PERIODS = 5.0
+"""Periods of such a line in a trial, at least. A choice."""
 LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
 unit (prepare/noise/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
