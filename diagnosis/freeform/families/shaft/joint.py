@@ -4,6 +4,7 @@ The spring is told by the length of shaft that twists as much: kappa / stiffness
 rigidity kappa.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -22,11 +23,45 @@ _MOST_TIMES = 20.0  # the shaft that twists as much: it hangs on a thread
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """The laws of a joint with play, and of a soft one."""
-    return (_joint(ranges), _spring(ranges)) if Variable.TORQUE in ranges.ends else ()
+    if Variable.TORQUE not in ranges.ends:
+        return ()
+    longest_mm = ranges.longest_mm
+    play = _law(
+        longest_mm,
+        _size("play", "deg", _PLAY_DEG, most=90.0),
+        name="joint of the shaft over position",
+        what="a joint in the shaft, with play",
+        title="play of the shaft from the tip to there",
+        apply=_apply_play,
+    )
+    spring = _law(
+        longest_mm,
+        _size("length", "mm", _SHARE * longest_mm, most=_MOST_TIMES * longest_mm),
+        name="spring in the shaft over position",
+        what="a torsion spring in the shaft",
+        title="length of shaft that twists as much as a joint between the tip and there",
+        apply=_apply_spring,
+    )
+    return play, spring
 
 
-def _place(longest_mm: float) -> Parameter:
+def _size(name: str, unit: str, start: float, *, most: float) -> Parameter:
     return Parameter(
+        name=name, unit=unit, low=0.0, high=most, start=(start,) * len(_JOINTS_AT), scale=start
+    )
+
+
+def _law(
+    longest_mm: float,
+    size: Parameter,
+    *,
+    name: str,
+    what: str,
+    title: str,
+    apply: Callable[..., RigParameters],
+) -> Family:
+    """A law of a joint of some size at some place, which starts from several places."""
+    place = Parameter(
         name="place",
         unit="mm",
         low=0.0,
@@ -35,61 +70,21 @@ def _place(longest_mm: float) -> Parameter:
         scale=0.3 * longest_mm,
         neutral=None,
     )
-
-
-def _joint(ranges: LogRanges) -> Family:
-    longest_mm = ranges.longest_mm
-    play = Parameter(
-        name="play",
-        unit="deg",
-        low=0.0,
-        high=90.0,
-        start=(_PLAY_DEG,) * len(_JOINTS_AT),
-        scale=_PLAY_DEG,
-    )
     return Family(
         effect=Effect(
-            name="joint of the shaft over position",
-            title="a joint in the shaft, with play",
+            name=name,
+            title=what,
             place=Place.NEEDLE,
-            parameters=(play, _place(longest_mm)),
-            apply=_apply_joint,
+            parameters=(size, place),
+            apply=apply,
             differences=(1e-2,),
         ),
         places={Place.NEEDLE: 1.0},
         says="position",
-        title="play of the shaft from the tip to there",
+        title=title,
         curve=partial(_beyond, longest_mm),
         x_unit="mm from the tip",
-        unit="deg",
-    )
-
-
-def _spring(ranges: LogRanges) -> Family:
-    longest_mm = ranges.longest_mm
-    length = Parameter(
-        name="length",
-        unit="mm",
-        low=0.0,
-        high=_MOST_TIMES * longest_mm,
-        start=(_SHARE * longest_mm,) * len(_JOINTS_AT),
-        scale=_SHARE * longest_mm,
-    )
-    return Family(
-        effect=Effect(
-            name="spring in the shaft over position",
-            title="a torsion spring in the shaft",
-            place=Place.NEEDLE,
-            parameters=(length, _place(longest_mm)),
-            apply=_apply_spring,
-            differences=(1e-2,),
-        ),
-        places={Place.NEEDLE: 1.0},
-        says="position",
-        title="length of shaft that twists as much as a joint between the tip and there",
-        curve=partial(_beyond, longest_mm),
-        x_unit="mm from the tip",
-        unit="mm",
+        unit=size.unit,
     )
 
 
@@ -98,7 +93,7 @@ def _beyond(longest_mm: float, size: float, place_mm: float) -> Points:
     return (0.0, place_mm, place_mm + 1.0, longest_mm + 2.0), (0.0, 0.0, size, size)
 
 
-def _apply_joint(rig: RigParameters, play_deg: float, place_mm: float) -> RigParameters:
+def _apply_play(rig: RigParameters, play_deg: float, place_mm: float) -> RigParameters:
     return replace(
         rig, free=FreeLaw(shaft=FreeShaft(joint_play_deg=play_deg, joint_from_tip_mm=place_mm))
     )
