@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
-from scipy.special import ndtri
+from scipy.special import betaincinv, ndtri
 
 from diagnosis.criteria.faults import (
     OUTLIER_CLEARANCE,
@@ -53,7 +53,8 @@ _LEFT_OUT_SIGMA = 3.5  # what least squares leaves out of a window
 _SCREENED_SIGMA = 2.0  # what is fitted at all: far below any threshold
 _ABOUT = 32  # samples on each side whose scatter counts
 _QUIET_SHARE = 0.4  # of these, that outliers beside them do not reach
-_QUIET_SIZE = 0.572  # that quantile of the middle one of three residuals, of white noise
+# That quantile of the middle one of three residuals, of white noise: their shares are as Beta(2, 2).
+_QUIET_SIZE = float(ndtri(0.5 + 0.5 * betaincinv(2, 2, _QUIET_SHARE)))
 _LOUD = 1.5  # times sigma: what a local scatter comes to by chance
 _MARGIN = 1.25  # of a local scatter: half of the samples about it tell it to a fifth
 _CHUNK = 20_000  # windows that are fitted at once
