@@ -6,6 +6,7 @@ and, if nothing explains the log, Missing beside the Assessment.
 """
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import date
 
@@ -71,6 +72,7 @@ def diagnose(
     stop: StopSignal | None = None,
     progress: Watcher = silent,
     diagnosed_on: date | None = None,
+    meanwhile: Callable[[], object] | None = None,
 ) -> Diagnosis:
     """Diagnose a log, to the end or as far as there is time.
 
@@ -80,6 +82,7 @@ def diagnose(
       stop: a signal with its own limit, which may be given at any time.
       progress: called at every stage and task, and ten times per second in between.
       diagnosed_on: date for the report; None: none.
+      meanwhile: called in a thread while other processes compute; its errors are ignored.
 
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
@@ -91,7 +94,7 @@ def diagnose(
     prepare_processes()
     nominal = _nominal_in_time(log, stop)
     heard(REPLAYING, 1, 1)
-    with process_pool(workers, heard, stop) as pool, listening(stop):
+    with process_pool(workers, heard, stop, meanwhile=meanwhile) as pool, listening(stop):
         nominal, found = search_log(log, nominal, testable_effects(log), pool)
         nominal = nominal.begun_as(found.problem, found.nominal)
         log = without(nominal.log, found.left_out)

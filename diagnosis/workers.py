@@ -13,7 +13,7 @@ import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing import active_children, parent_process
@@ -144,15 +144,26 @@ def _attempt_in_pool(function: Callable[..., T], task: Task) -> T | Failure:
 
 
 @contextmanager
-def process_pool(count: int, progress: Heard = unheard, stop: StopSignal = NEVER) -> Iterator[Workers]:
-    """Forked processes, which end with the block; with a count of 1, this process computes."""
+def process_pool(
+    count: int,
+    progress: Heard = unheard,
+    stop: StopSignal = NEVER,
+    *,
+    meanwhile: Callable[[], object] | None = None,
+) -> Iterator[Workers]:
+    """Forked processes, which end with the block; with a count of 1, this process computes.
+
+    Args:
+      meanwhile: called in a thread of this process, which has less to do than the others; they do not
+        see what it changes. Its errors are ignored.
+    """
     if count <= 1:
         yield Workers(progress=progress, stop=stop)
         return
     others, cores = active_children(), Cores(count=count)
     pool = ProcessPoolExecutor(count, initializer=_begin, initargs=(stop, cores))
     try:
-        with sharing(cores), threadpool_limits(1):
+        with sharing(cores), threadpool_limits(1), _beside(pool, meanwhile):
             yield Workers(pool=pool, count=count, progress=progress, stop=stop)
     finally:
         pool.shutdown(wait=False, cancel_futures=True)
@@ -161,6 +172,26 @@ def process_pool(count: int, progress: Heard = unheard, stop: StopSignal = NEVER
             process.kill()
         for process in ours:
             process.join()
+
+
+@contextmanager
+def _beside(pool: Executor, call: Callable[[], object] | None) -> Iterator[None]:
+    """Run a call in a thread, which begins once the processes are forked: they would share its locks."""
+    if call is None:
+        yield
+        return
+    pool.submit(int)  # which forks all of them
+    thread = Thread(target=_ignoring_errors, args=(call,), daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        thread.join()  # before this process forks again
+
+
+def _ignoring_errors(call: Callable[[], object]) -> None:
+    with suppress(Exception):
+        call()
 
 
 def _begin(stop: StopSignal, cores: Cores) -> None:

@@ -29,7 +29,7 @@ from diagnosis.report.sentences.nearest import (
 )
 from diagnosis.report.sentences.residual import largest_parts, largest_residual
 from diagnosis.report.tables import limit_in_words
-from diagnosis.report.write import output_paths, write_report
+from diagnosis.report.write import load_libraries, output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, band_name
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
@@ -90,7 +90,13 @@ def run(
     with stops_on_signals(stop):
         try:
             with progress_line(terminal(stderr=True), stop) as show:
-                found = diagnose(log, stop=stop, progress=show, diagnosed_on=date.today())
+                found = diagnose(
+                    log,
+                    stop=stop,
+                    progress=show,
+                    diagnosed_on=date.today(),
+                    meanwhile=load_libraries if writes else None,
+                )
         except StoppedEarly as early:
             if not stop.requested:
                 raise

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from html import unescape
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVarTuple
+from typing import TYPE_CHECKING, Any, TypeVarTuple
 
 from diagnosis.report.html_parts import document, heading, paragraph, picture
 from sim.files import ResultSet, write_text
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Shown = TypeVarTuple("Shown")
+Part = tuple[Callable[..., list[str]], *tuple[Any, ...]]
+"""What makes parts of a page, and what it shows."""
 
 _HEADING = re.compile(r"<h\d[^>]*>(.*)</h\d>")
 _REST = "The rest of the page is complete without it."

@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from diagnosis.report import html_parts as html
-from diagnosis.report.fallible import Page, page_of, section
-from diagnosis.report.sections.agreement import agreement_section
+from diagnosis.report.fallible import Page, Part, page_of, section
+from diagnosis.report.sections.agreement import agreement_parts
 from diagnosis.report.sections.alternatives import alternatives_section
 from diagnosis.report.sections.front import TITLE, front
 from diagnosis.report.sections.limits import limits_section
@@ -30,17 +30,18 @@ def page(found: Diagnosis, report: Mapping[str, Any]) -> Page:
 
 def page_begun(found: Diagnosis, report: Mapping[str, Any], workers: Workers) -> Callable[[], Page]:
     """The same, whose sections are made in other processes meanwhile, if there are any."""
-    calls = [
-        workers.begin(section, missing_section, found),
-        workers.begin(section, agreement_section, found),
-        workers.begin(section, where_section, found),
-        workers.begin(section, parameters_section, found, report),
-        workers.begin(section, alternatives_section, found),
-        workers.begin(section, limits_section, found),
-        workers.begin(section, search_section, found),
-        workers.begin(section, sensors_section, found),
-        workers.begin(section, rig_section, found),
+    parts: list[Part] = [
+        (missing_section, found),
+        *agreement_parts(found),
+        (where_section, found),
+        (parameters_section, found, report),
+        (alternatives_section, found),
+        (limits_section, found),
+        (search_section, found),
+        (sensors_section, found),
+        (rig_section, found),
     ]
+    calls = [workers.begin(section, make, *shown) for make, *shown in parts]
     return lambda: _page(found, [part for call in calls for part in call()])
 
 

@@ -18,6 +18,11 @@ from diagnosis.workers import Workers, process_pool
 from sim.files import Destination, ResultSet, publishing, write_text
 
 
+def load_libraries() -> None:
+    """Import what pages are drawn and recordings made with, which takes 1 to 2 s."""
+    from diagnosis.report import html_report, recording  # noqa: F401, PLC0415
+
+
 def output_paths(log: RigLog, folder: Path) -> list[Path]:
     """What `write_report` will write."""
     whole = [folder / name for name in ("report.json", "report.html", "gap.rrd")]

@@ -7,9 +7,9 @@ module loads our packages from its own location before anything else imports the
 """
 
 import sys
-from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
+from typing import NoReturn
 
 PACKAGES = ("models", "sim", "controllers", "diagnosis", "studies", "validation", "scripts")
 
@@ -27,8 +27,8 @@ def _load_ours() -> None:
 _load_ours()
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a subcommand; returns the exit code (see `scripts.main`)."""
-    from scripts.main import main as command
+def main() -> NoReturn:
+    """Run the subcommand of the command line; the process ends with its exit code (`scripts.main`)."""
+    from scripts.main import run_process
 
-    return command(arguments)
+    run_process()

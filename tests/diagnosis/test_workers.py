@@ -209,3 +209,17 @@ def test_what_is_begun_ends_when_its_value_is_asked_for(count):
         assert good() == 20
         with pytest.raises(InvalidValue):
             bad()
+
+
+def test_what_is_called_meanwhile_is_done_here_when_the_processes_have_ended():
+    done = []
+    with process_pool(2, meanwhile=lambda: done.append(os.getpid())) as pool:
+        others = pool.each("x", os.getpid, [Task(effects=(), arguments=())])
+    assert done == [os.getpid()]
+    assert os.getpid() not in others
+
+
+def test_errors_of_what_is_called_meanwhile_are_ignored(capfd):
+    with process_pool(2, meanwhile=lambda: misuse(1)) as pool:
+        assert pool.each("x", work, TASKS) == EXPECTED
+    assert capfd.readouterr().err == ""

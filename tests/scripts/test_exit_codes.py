@@ -62,6 +62,29 @@ def test_an_interrupt_within_exec_exits_by_the_code_as_well(tmp_path):
     assert ended.returncode == ExitCode.INTERRUPTED, ended.stderr
 
 
+ENDED = """
+import atexit
+from scripts.exit_codes import end_process
+
+class Slow:
+    def __del__(self):
+        print("taken apart")
+
+kept = Slow()
+kept.itself = kept
+atexit.register(print, "registered")
+print("written", end="; ")
+end_process(3)
+"""
+
+
+def test_a_process_ends_with_what_was_registered_and_takes_nothing_apart():
+    ended = subprocess.run(
+        [sys.executable, "-c", ENDED], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr) == (3, "written; registered\n", "")
+
+
 @pytest.mark.parametrize(("measured", "code"), [(1.0, ExitCode.DONE), (2.0, ExitCode.BOUND_FAILS)])
 def test_a_bound_that_fails_has_a_code_of_its_own(measured, code, monkeypatch, tmp_path, capsys):
     nothing = ResultSet(tmp_path, [], tmp_path)

@@ -1,7 +1,7 @@
 """Why to believe the answer: how much is explained, every trial, loops, twist of the shaft."""
 
 from diagnosis.report import html_parts as html
-from diagnosis.report.fallible import drawn
+from diagnosis.report.fallible import Part, drawn
 from diagnosis.report.figures.loops import describe_loops, draw_loops
 from diagnosis.report.figures.trials import describe_trial, draw_trial
 from diagnosis.report.figures.twist import describe_twist, draw_twist
@@ -30,20 +30,31 @@ _TWIST = (
 )
 
 
-def agreement_section(found: Diagnosis) -> list[str]:
-    """Everything under this heading."""
-    trials = range(len(found.log.trials))
+def agreement_parts(found: Diagnosis) -> list[Part]:
+    """Everything under this heading, in parts that can be made side by side: a picture takes long."""
+    trials = ((_trial, found, i) for i in range(len(found.log.trials)))
+    return [(_begin, found), *trials, (_loops, found), (_twist, found)]
+
+
+def _begin(found: Diagnosis) -> list[str]:
     unknown = found.verdict.kind is VerdictKind.UNKNOWN
     return [
         html.heading("How near it comes" if unknown else "Why to believe it"),
         html.paragraph(reduction(found)),
         html.heading(f"Measured, nominal and {label_of(found, 'explained')}", level=3),
         html.paragraph(_TRIALS.format(best=best_in_words(found))),
-        *(drawn(draw_trial, describe_trial, found, i) for i in trials),
+    ]
+
+
+def _trial(found: Diagnosis, i: int) -> list[str]:
+    return [drawn(draw_trial, describe_trial, found, i)]
+
+
+def _loops(found: Diagnosis) -> list[str]:
+    return [
         html.heading("Loops of torque and lag", level=3),
         html.paragraph(_LOOPS),
         drawn(draw_loops, describe_loops, found),
-        *_twist(found),
     ]
 
 
