@@ -98,7 +98,7 @@ class Workers:
         """
         if self.pool is None:
             return partial(function, *arguments)
-        return self.pool.submit(function, *arguments).result
+        return self.pool.submit(_computed_in_pool, function, *arguments).result
 
     def _here(self, stage: str, function: Callable[..., T], tasks: Sequence[Task]) -> list[T | Failure]:
         found: list[T | Failure] = []
@@ -138,9 +138,14 @@ def _undone(task: Task) -> Failure:
 
 
 def _attempt_in_pool(function: Callable[..., T], task: Task) -> T | Failure:
-    """The same in a process of the pool, which shares its cores with others."""
+    """The same in a process of the pool."""
+    return _computed_in_pool(attempt, function, task)
+
+
+def _computed_in_pool(function: Callable[..., T], *arguments: Any) -> T:
+    """A value that a process of the pool computes, which shares its cores with others."""
     with computing():
-        return attempt(function, task)
+        return function(*arguments)
 
 
 @contextmanager

@@ -27,7 +27,7 @@ def advise(
     left: ResidualBreakdown,
     parameters: Parameters,
 ) -> str:
-    """One or two sentences; empty if nothing is left to do.
+    """One or two sentences; empty if nothing is left to do. After a stop, nothing is simulated for them.
 
     Args:
       problem: the decimated log, on which runs are simulated.
@@ -37,7 +37,7 @@ def advise(
     """
     match verdict.kind:
         case VerdictKind.UNDECIDED:
-            return _tell_apart(problem, verdict)
+            return "" if stopping() else _tell_apart(problem, verdict)
         case VerdictKind.UNKNOWN:
             return _look_closer(problem, nominal, left)
         case VerdictKind.EXPLAINED:

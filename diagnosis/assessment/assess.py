@@ -1,8 +1,8 @@
 """Everything that is reported in addition to the verdict."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +40,7 @@ from diagnosis.residuals.trial_residual import trial_residuals
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
-from diagnosis.stopping import StopSignal
+from diagnosis.stopping import StopSignal, stopping
 from diagnosis.workers import Failure, Workers
 from sim.needles.run import SimulationFailed
 
@@ -128,21 +128,22 @@ def assess(
     before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
     left = trial_residuals(log, explained, problem.noise)
     where = residual_breakdown(before), residual_breakdown(left)
+    named = verdict.effects or strongest_first(problem, near)
+    spread_of = workers.begin(partial(covariance, problem, near.fit, change, left=_above_noise(near)))
+    twist_of = workers.begin(_twist, problem, near, named, largest_moment(before))
     beside = further()
     with_one_more = gap_with_one_more(verdict.best.fit, beside) if beside else {}
-    limits = _limits(coarse, verdict, beside, effects, workers) if beside else {}
-    spread = covariance(problem, near.fit, change, left=_above_noise(near))
+    spread = spread_of()
     own = intervals(near.fit, spread)
+    accepted = {e: p for e, p in own.items() if e in verdict.effects}
+    advice_of = workers.begin(advise, coarse, verdict, *where, accepted) if complete else None
+    limits = _limits(coarse, verdict, beside, effects, workers) if beside else {}
     if stop.due:
         stop.leave_out(REPLICATES)
     plain = problem.noise.uncoloured
     gap = gap_reduction(
         nominal_residuals(replace(problem, noise=plain), nominal), in_units_of(problem, after, plain)
     )
-    named = verdict.effects or strongest_first(problem, near)
-    accepted = {e: p for e, p in own.items() if e in verdict.effects}
-    moment = largest_moment(before)
-    twist = stop.unless_due(TWIST, lambda: _twist(problem, near, named, moment))
     return Assessment(
         gap=gap,
         nearest=nearest_of(near, named, own, gap, *_by_parts(problem, near, verdict, stop)),
@@ -155,12 +156,10 @@ def assess(
         sensors=sensor_errors(problem, rig, predictions, own),
         with_one_more=with_one_more,
         detection_limits=limits,
-        next_experiment=_next_experiment(coarse, verdict, where, accepted, stop)
-        if complete
-        else TO_ITS_END,
+        next_experiment=_next_experiment(verdict, advice_of, stop) if advice_of else TO_ITS_END,
         numerical_error=error,
         explained=explained,
-        twist=twist,
+        twist=stop.unless_due(TWIST, twist_of),
         warnings=(
             *problem.log.warnings,
             *numerical_warnings(error),
@@ -171,26 +170,22 @@ def assess(
     )
 
 
-def _next_experiment(
-    coarse: FitProblem,
-    verdict: Verdict,
-    where: tuple[ResidualBreakdown, ResidualBreakdown],
-    parameters: Mapping[str, Mapping[str, Interval]],
-    stop: StopSignal,
-) -> str:
-    """The next experiment in words; only the one that tells two explanations apart needs simulations."""
-    arguments = (coarse, verdict, *where, parameters)
-    if verdict.kind is VerdictKind.EXPLAINED and stop.due:
-        stop.leave_out(NEXT)  # what to change stands; the run that would narrow it is not looked for
-    if verdict.kind is not VerdictKind.UNDECIDED:
-        return advise(*arguments)
-    return stop.unless_due(NEXT, lambda: advise(*arguments)) or ""
+def _next_experiment(verdict: Verdict, advice_of: Callable[[], str], stop: StopSignal) -> str:
+    """The next experiment in words; after a stop, what to change stands alone."""
+    if stop.due and verdict.kind in (VerdictKind.EXPLAINED, VerdictKind.UNDECIDED):
+        stop.leave_out(NEXT)
+    return advice_of()
 
 
 def _twist(
     problem: FitProblem, near: Candidate, effects: Sequence[str], moment: tuple[str, float]
 ) -> ShaftTwist | None:
-    """Twist along the shaft at a moment, by the nominal rig, with each effect alone and with all."""
+    """Twist along the shaft at a moment, by the nominal rig, with each effect alone and with all.
+
+    None if that cannot be simulated, or after a stop.
+    """
+    if stopping():
+        return None
     rigs = {"nominal": NOMINAL}
     if len(effects) > 1:
         rigs |= {name: _alone(problem, near, name, effects) for name in effects}

@@ -14,6 +14,7 @@ their own difference decides, also where the other has lost more of its lead tha
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,18 +36,38 @@ def without_replay_errors(problem: FitProblem, candidates: Sequence[Candidate]) 
     Args:
       candidates: checked, in units of the noise of the problem.
     """
+    replays = _Replays(problem)
     at_floor = [c for c in candidates if c.floor.reached]
-    pairs = [(_scored(problem, one, at_floor), one) for one in candidates]
+    pairs = [(_scored(replays, one, at_floor), one) for one in candidates]
     ranked = sorted(pairs, key=lambda pair: pair[0].score)
-    return sorted(_with_rivals_nearer(problem, ranked), key=lambda c: c.score)
+    return sorted(_with_rivals_nearer(replays, ranked), key=lambda c: c.score)
 
 
-def _scored(problem: FitProblem, one: Candidate, at_floor: Sequence[Candidate]) -> Candidate:
+class _Replays:
+    """A problem, and the same ones whose replays err in other ways; they are made when asked for."""
+
+    def __init__(self, problem: FitProblem) -> None:
+        """The problem itself."""
+        self.problem = problem
+
+    @property
+    def finer(self) -> FitProblem:
+        """With a finer mesh and step."""
+        return replace(self.problem, resolution=self.problem.resolution.refined)
+
+    @cached_property
+    def read_again(self) -> list[FitProblem]:
+        """With other readings of the base's encoder."""
+        rng = np.random.default_rng(_SEED)
+        return [self.problem.read_again(rng) for _ in range(BASE_NOISE_READINGS)]
+
+
+def _scored(replays: _Replays, one: Candidate, at_floor: Sequence[Candidate]) -> Candidate:
     parts = [c for c in at_floor if {*c.names} < {*one.names} and c.fit.cost > one.fit.cost]
     if not parts or not one.floor.reached:
         return one
     try:
-        errors = list(_errors(problem, one))
+        errors = list(_errors(replays, one))
     except SimulationFailed:
         return one
     needless = max(_needless(one, part, errors) for part in parts)
@@ -54,7 +75,7 @@ def _scored(problem: FitProblem, one: Candidate, at_floor: Sequence[Candidate]) 
 
 
 def _with_rivals_nearer(
-    problem: FitProblem, ranked: Sequence[tuple[Candidate, Candidate]]
+    replays: _Replays, ranked: Sequence[tuple[Candidate, Candidate]]
 ) -> list[Candidate]:
     """Candidates, those that the best leads by a little as near to it as errors may bring them.
 
@@ -67,7 +88,7 @@ def _with_rivals_nearer(
         return known
     best, own = first
     try:
-        errors = list(_errors(problem, best))
+        errors = list(_errors(replays, best))
     except SimulationFailed:
         return known
     return [
@@ -105,15 +126,13 @@ def _needless(one: Candidate, part: Candidate, errors: Sequence[Array]) -> float
     return (part.fit.cost - one.fit.cost) * square / (1.0 + square)
 
 
-def _errors(problem: FitProblem, one: Candidate) -> Iterator[Array]:
+def _errors(replays: _Replays, one: Candidate) -> Iterator[Array]:
     """Changes of the residual of an explanation from reading to reading of the encoder, (N,) each."""
-    rig, rng = one.fit.parameterization.rig(one.fit.x), np.random.default_rng(_SEED)
-    finer = replace(problem, resolution=problem.resolution.refined)
-    here, there = (p.residuals([rig], callback_alone=True) for p in (problem, finer))
+    rig = one.fit.parameterization.rig(one.fit.x)
+    here, there = (p.residuals([rig], callback_alone=True) for p in (replays.problem, replays.finer))
     mesh = _change(there, here)
-    for _ in range(BASE_NOISE_READINGS):
-        again = problem.read_again(rng).residuals([rig], callback_alone=True)
-        yield mesh + _change(again, here)
+    for again in replays.read_again:
+        yield mesh + _change(again.residuals([rig], callback_alone=True), here)
 
 
 def _change(runs: Sequence[Sequence[Array]], here: Sequence[Sequence[Array]]) -> Array:
