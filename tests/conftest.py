@@ -1,5 +1,6 @@
 """What several tests share, and how they are spread over processes."""
 
+import gc
 import os
 from pathlib import Path
 
@@ -12,6 +13,8 @@ for library in ("OPENBLAS", "OMP", "MKL"):
     os.environ.setdefault(
         f"{library}_NUM_THREADS", "1"
     )  # processes share the cores, threads do not help
+
+gc.set_threshold(100_000)  # objects: the ten thousand tests are no garbage to look for
 
 ROOT = Path(__file__).parent
 DIAGNOSED = {"dry", "nothing"}

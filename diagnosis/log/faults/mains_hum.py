@@ -37,7 +37,8 @@ from diagnosis.log.trial import SENSORS, Trial
 Array = NDArray[np.float64]
 
 _BASE = "base_angle_deg"
-_FINER = 4  # frequencies that are looked at per 1 / T
+_FINER = 2  # frequencies that are looked at per 1 / T: between two, a line has lost a tenth at most
+_NEAR = 16  # times as fine about a line that was found
 _PART_S, _PAUSE_S = 40.0, 2.0
 
 
@@ -86,7 +87,7 @@ def _line_hz(trials: Sequence[Trial], column: str, about_hz: float) -> float | N
     power = _power(read, tried)
     if power.max() <= gamma.isf(HUM_FALSE_ALARMS / tried.size, len(read)):
         return None
-    near = tried[np.argmax(power)] + step_hz * np.linspace(-0.5, 0.5, 2 * _FINER + 1)
+    near = tried[np.argmax(power)] + step_hz * np.linspace(-0.5, 0.5, _NEAR + 1)
     return float(near[np.argmax(_power(read, near))])
 
 

@@ -50,7 +50,7 @@ _PASSES = 4
 _STENCILS = ((1, 2), (2, 4), (3, 6))  # neighbours on each side of a cubic
 _APART = ((1, 3), (2, 5), (4, 6))  # without one in common: an outlier beside a sample is in one alone
 _LEFT_OUT_SIGMA = 3.5  # what least squares leaves out of a window
-_SCREENED_SIGMA = 2.0  # what is fitted at all: far below any threshold
+_SCREENED_SIGMA = 3.0  # what is fitted at all: it leaves out none of the outliers that fits would find
 _ABOUT = 32  # samples on each side whose scatter counts
 _QUIET_SHARE = 0.4  # of these, that outliers beside them do not reach
 # That quantile of the middle one of three residuals, of white noise: their shares are as Beta(2, 2).
