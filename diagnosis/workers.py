@@ -166,11 +166,14 @@ def process_pool(
         yield Workers(progress=progress, stop=stop)
         return
     others, cores = active_children(), Cores(count=count)
-    pool = ProcessPoolExecutor(count, initializer=_begin, initargs=(stop, cores))
+    pool = _Pool(count, initializer=_begin, initargs=(stop, cores))
+    if meanwhile is not None:
+        pool.beside = Thread(target=_ignoring_errors, args=(meanwhile,), daemon=True)
     try:
-        with sharing(cores), threadpool_limits(1), _beside(pool, meanwhile):
+        with sharing(cores), threadpool_limits(1):
             yield Workers(pool=pool, count=count, progress=progress, stop=stop)
     finally:
+        pool.wait_for_the_thread()
         pool.shutdown(wait=False, cancel_futures=True)
         ours = [process for process in active_children() if process not in others]
         for process in ours:
@@ -179,19 +182,25 @@ def process_pool(
             process.join()
 
 
-@contextmanager
-def _beside(pool: Executor, call: Callable[[], object] | None) -> Iterator[None]:
-    """Run a call in a thread, which begins once the processes are forked: they would share its locks."""
-    if call is None:
-        yield
-        return
-    pool.submit(int)  # which forks all of them
-    thread = Thread(target=_ignoring_errors, args=(call,), daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        thread.join()  # before this process forks again
+class _Pool(ProcessPoolExecutor):
+    """A pool that starts a thread of this process with the first call.
+
+    The processes are forked by then: they would share the locks of the thread.
+    """
+
+    beside: Thread | None = None
+
+    def submit(self, fn: Callable[..., T], /, *args: Any, **kwargs: Any) -> Future[T]:
+        """As that of every executor."""
+        call = super().submit(fn, *args, **kwargs)
+        if self.beside is not None and self.beside.ident is None:
+            self.beside.start()
+        return call
+
+    def wait_for_the_thread(self) -> None:
+        """Before this process forks again."""
+        if self.beside is not None and self.beside.ident is not None:
+            self.beside.join()
 
 
 def _ignoring_errors(call: Callable[[], object]) -> None:
