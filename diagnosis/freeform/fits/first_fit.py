@@ -11,6 +11,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.criteria.freeform import FEW_PROMISE
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.objective import NearStart
@@ -27,7 +28,7 @@ FEW_NUMBERS = 5  # of a law that takes more iterations at once: it costs little,
 
 
 def first_fit(rough: FitProblem, base: Fit, family: Family) -> FreeFit:
-    """The family fitted for one iteration, a few where it has few numbers.
+    """The family fitted for one iteration, a few where it has few numbers which promise something.
 
     Args:
       base: fit of the rig without it.
@@ -36,13 +37,14 @@ def first_fit(rough: FitProblem, base: Fit, family: Family) -> FreeFit:
       SimulationFailed: the rig with the law cannot be simulated.
     """
     problem = with_family(rough, without_fine(family))
-    neutral = _starts_neutral(family)
+    neutral, few = _starts_neutral(family), len(family.effect.parameters) <= FEW_NUMBERS
     if neutral:
         start = problem.parameterization((family.name,)).joined(base.parts)
     else:
-        start = screen(problem, base, family.name)[0].start
+        screened = screen(problem, base, family.name)
+        start = screened[0].start
+        few &= any(one.gain > FEW_PROMISE * (base.cost - base.samples) for one in screened)
     near = NearStart(slopes=np.vstack(base.jacobian), by_trial=base.by_trial if neutral else None)
-    few = len(family.effect.parameters) <= FEW_NUMBERS
     iterations = FEW_ITERATIONS if few else FIRST_ITERATIONS
     fit = fit_effects(problem, (family.name,), start, most_iterations=iterations, near=near)
     fit = with_fine(fit, with_family(rough, family), family).with_its_prediction()

@@ -1,6 +1,7 @@
 """The first fit of a family: its fine coordinates are left at 0, and cost nothing."""
 
 import numpy as np
+import pytest
 from diagnosis_fixtures import log_of, problem_of
 from free_forms import CURVE, family_of
 
@@ -8,12 +9,15 @@ from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families.interface import families
 from diagnosis.freeform.family import coordinates_of
+from diagnosis.freeform.fits import first_fit as first_fit_module
 from diagnosis.freeform.fits.first_fit import first_fit, with_fine, without_fine
 from diagnosis.freeform.fits.free_fit import with_family
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.freeform.smooth_curve import separate_values
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection.screening import Screened
+from sim.needles.run import SimulationFailed
 
 
 def test_fine_coordinates_are_those_that_change_a_curve_least():
@@ -87,3 +91,35 @@ def base_rig(base):
 
 def problem_size(problem, family):
     return len(with_family(problem, family).parameterization((family.name,)).parameters)
+
+
+def begins_somewhere(family):
+    """Whether it has few numbers that begin away from no law."""
+    parameters = family.effect.parameters
+    return len(parameters) <= first_fit_module.FEW_NUMBERS and any(
+        set(p.start) != {0.0} for p in parameters
+    )
+
+
+@pytest.mark.parametrize(("promise", "iterations"), [(0.2, 3), (0.01, 1)])
+def test_few_numbers_take_several_iterations_where_a_start_promises_something(
+    promise, iterations, monkeypatch
+):
+    problem = problem_of(log_of(RigParameters(damping_scale=1.3), seconds=8.0))
+    base = fit_effects(problem, ())
+    family = next(f for f in families(ranges_of(problem, replay(problem.log))) if begins_somewhere(f))
+    gain, asked = promise * (base.cost - base.samples), []
+
+    def screened(problem, base, name):
+        start = problem.parameterization((name,)).joined(base.parts)
+        return [Screened(names=(name,), start=start, cost=base.cost - gain, gain=gain)]
+
+    def fitted(*_, most_iterations, near):
+        asked.append(most_iterations)
+        raise SimulationFailed("asked for")
+
+    monkeypatch.setattr(first_fit_module, "screen", screened)
+    monkeypatch.setattr(first_fit_module, "fit_effects", fitted)
+    with pytest.raises(SimulationFailed, match="asked for"):
+        first_fit(problem, base, family)
+    assert asked == [iterations]
