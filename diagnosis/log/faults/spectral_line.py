@@ -15,11 +15,8 @@ Array = NDArray[np.float64]
 
 _MEANS_S, _MEANS_OF = 0.1, 8  # samples at least
 _DEGENERATE = 1e-4  # share of the normal equations of a line at half the sampling rate: sines are 0
-_BESIDE = (
-    4,
-    41,
-    2,
-)  # frequencies beside a line that are compared with it, in 1 / T: a taper tells no more
+# Frequencies beside a line that are compared with it, in 1 / T; those between them tell little more.
+_BESIDE = (4, 41, 2)
 
 
 def power_over_neighbours(time_s: Array, values: Array, tried_hz: Array) -> Array:
