@@ -25,9 +25,11 @@ READING_RANGE = {
 }
 """Physical: beyond these a reading is in another unit, or a sentinel for a missing value."""
 FEWEST_ROWS = 20
+"""Rows of one trial at least. A choice."""
 MOST_ROWS = 2_000_000
+"""Rows of all trials together at most: hours at 100 Hz. A choice."""
 MOST_BYTES_PER_ROW = 250
-"""Rows of one trial at least, of all trials together at most (hours at 100 Hz), bytes per row."""
+"""Bytes of a row at most. A choice, far above eight numbers of 17 digits."""
 MOST_LOST_ROWS = 100_000
 """Physical: rows that one pause may be long (1000 s at 100 Hz), since they are replayed as if they were
 there; a needle has forgotten by then all but what dry friction holds. A longer one ends a trial."""
@@ -37,18 +39,25 @@ SHORTEST_SAMPLE_S = 1e-5
 """Physical: nobody reads an encoder of a needle more than 100 000 times a second: another unit."""
 LEAST_DEPTH_MM = 1.0
 """Derived: READING_RANGE ends at 1000 mm, so that all lengths in metres are below this."""
-SHORTEST_SHAFT_DIAMETERS, SHORTEST_SHAFT_MM = 3.0, 30.0
-"""Physical: a shaft is longer than one or the other, unless in metres; needles have 50 to 500
-diameters."""
-LENGTH_JUMP_MM, LENGTH_HOLD_S = 5.0, 1.0
-"""Physical: what a length may change by between two samples, beside its travel in so long a hold."""
+SHORTEST_SHAFT_DIAMETERS = 3.0
+"""Physical: a shaft is longer than this, unless in metres; needles have 50 to 500 diameters."""
+SHORTEST_SHAFT_MM = 30.0
+"""Physical: or it is longer than this, where a machine is told as a thick one."""
+LENGTH_JUMP_MM = 5.0
+"""Physical: what a length may change by between two samples, beside its travel in a hold."""
+LENGTH_HOLD_S = 1.0
+"""Physical: the longest hold of a reading in which it may have travelled."""
 WRAP_PERIODS_DEG = (360.0, 180.0)
+"""Derived: the periods of an angle that wraps."""
 WRAP_REMAINDER = 1 / 6
+"""Share of a period by which motion may change the jump of a wrap. A choice."""
 WRAP_MOTION_SIGMA = 6.0
-WRAP_FLICKERS, WRAP_HELD = 3, 1 / 36
-"""A wrap of an angle: its periods; share of one by which motion may change the jump; standard deviations
-by which the motion on both sides is certain; returns in a row that are no lone spike, and the share of a
-period by which noise may change these while the angle holds (10 deg of a turn: seven sigma of 1 deg)."""
+"""Standard deviations by which the motion on both sides of a wrap is certain. A choice."""
+WRAP_FLICKERS = 3
+"""Returns in a row that are a wrap in noise, and no lone spike. A choice."""
+WRAP_HELD = 1 / 36
+"""Share of a period by which noise may change these while the angle holds: 10 deg of a turn, which are
+seven sigma of 1 deg."""
 NAME_LIKENESS = 0.75
 """Likeness, 0 to 1, from which a name is taken for a misspelling of another. Set on the spellings in
 tests/diagnosis/log/test_unit_hints.py; it decides on the wording of an error alone."""
@@ -61,18 +70,23 @@ SAME_STEP = 0.02
 EVEN_MOST_STEPS = 1.0
 """Steps by which stamps may be off an even grid, root mean square: beyond, the grid has lost count."""
 EVEN_TELLING_SIGMA = 3.0
-EVEN_SIGMA = 6.0
 """Derived: a sample tells which axis is the true one where both disagree by three of their standard
-deviations; samples have to tell for even times by six of those of a fair coin, once in 10^9 logs."""
+deviations."""
+EVEN_SIGMA = 6.0
+"""Derived: samples have to tell for even times by six standard deviations of a fair coin, once in 10^9
+logs."""
 
 # Samples taken unevenly under even stamps (log/times/sampling_jitter.py)
 
 JITTER_CERTAIN_SIGMA = 10.0
+"""Certainty with which the scatter of the base grows with its rate: root of twice the log-likelihood.
+Six logs of the third rig with such a jitter: 17 to 90; 58 without: at most 9."""
 JITTER_MOST_ALIKE = 0.2
+"""Correlation from sample to sample that is none of jitter. In the same logs: -0.15 to 0.03, and 0.9."""
 JITTER_MOST_BEYOND = 0.03
-JITTER_LEAST_STEPS, JITTER_MOST_STEPS = 0.02, 0.45
-"""Certainty with which the scatter of the base grows with its rate (root of twice the log-likelihood),
-correlation from sample to sample that is none of jitter, share of samples beyond four sigma, and steps
-that it may be. Six logs of the third rig with such a jitter: 17 to 90, -0.15 to 0.03, at most 0.008, and
-0.08 to 0.27; 58 without: at most 9, with a correlation of 0.9, and 0.005. Pulses of an exact base: 0.08
-beyond. Under half a step samples keep their order."""
+"""Share of samples beyond four sigma. In the same logs: at most 0.008, and 0.005; of pulses of an exact
+base 0.08."""
+JITTER_LEAST_STEPS = 0.02
+"""Steps that jitter is at least. In the same logs with it: 0.08 to 0.27."""
+JITTER_MOST_STEPS = 0.45
+"""Steps that it is at most: under half a step samples keep their order."""
