@@ -2,46 +2,73 @@
 
 FALSE_ALARM_CHANCE = 1e-9
 """Derived: of calling a run of equal readings frozen, per column; one false alarm in 10^9 columns."""
-FROZEN_LEAST_RUN, FROZEN_LEAST_AGAIN = 20, 5
+FROZEN_LEAST_RUN = 20
+"""Samples of the shortest run that is frozen. A choice."""
+FROZEN_LEAST_AGAIN = 5
+"""Samples of the shortest beside a longer one. A choice."""
 FROZEN_LEAST_S = 0.5
+"""Seconds of the shortest. A choice."""
 FROZEN_TIMES_USUAL_RUN = 5.0
-"""Shortest run that is frozen: samples, and beside a longer one; seconds, and times the median run of a
-slow sensor."""
+"""Times the median run of a slow sensor that it is long. A choice."""
 LOST_COUNTS_BESIDE = 3
-LOST_COUNTS_SIGMA, LOST_COUNTS_LEAST_DEG = 10.0, 0.3
-"""Moves of the base on either side of a jump of its reading; least size of a jump that is looked at, in
-what usual moves are beyond those beside them, and in deg. Choices: the other sensors decide."""
-LOST_COUNTS_STEADY, LOST_COUNTS_STEP = 0.3, 2.5
-"""Range of the moves on either side of a jump, in its size: more is a turn that gains speed; time from
-one sample to the next, in the median: more is a gap."""
-LOST_COUNTS_MOST, LOST_COUNTS_LEAVES = 3, 0.9
-"""Jumps of a log that are looked at, largest first; share of the gap of a trial that shifting readings
-back has to leave at most: far beyond chance, and not so little that friction would hide it."""
+"""Moves of the base on either side of a jump of its reading. A choice: the other sensors decide."""
+LOST_COUNTS_SIGMA = 10.0
+"""Least size of a jump that is looked at, in what usual moves are beyond those beside them. A choice, as
+above."""
+LOST_COUNTS_LEAST_DEG = 0.3
+"""The same in deg. A choice, as above."""
+LOST_COUNTS_STEADY = 0.3
+"""Range of the moves on either side of a jump, in its size: more is a turn that gains speed."""
+LOST_COUNTS_STEP = 2.5
+"""Time from one sample to the next, in the median: more is a gap."""
+LOST_COUNTS_MOST = 3
+"""Jumps of a log that are looked at, largest first. A choice."""
+LOST_COUNTS_LEAVES = 0.9
+"""Share of the gap of a trial that shifting readings back has to leave at most: far beyond chance, and
+not so little that friction would hide it."""
 LOST_COUNTS_FURTHEST = 3.0
 """Scatter of a jump as it was read by which its size may differ from that at most. A choice."""
-LOST_COUNTS_SMALL_SIGMA, LOST_COUNTS_MOST_SMALL = 4.0, 16
-LOST_COUNTS_GAIN, LOST_COUNTS_SHARE = 30.0, 0.3
-"""Beside an explanation: least size of a jump, in what usual moves are beyond those beside them; jumps
-of a trial that are looked at; cost that shifting readings back has to take off: odds of a million to
-one; and share of what the explanation leaves beyond noise that all of this has to take off before the
-log is searched again. Choices; what is found counts only where it brings an explanation to the noise."""
+LOST_COUNTS_SMALL_SIGMA = 4.0
+"""Beside an explanation, the least size of a jump, in what usual moves are beyond those beside them. A
+choice: what is found counts only where it brings an explanation to the noise."""
+LOST_COUNTS_MOST_SMALL = 16
+"""Jumps of a trial that are looked at there. A choice."""
+LOST_COUNTS_GAIN = 30.0
+"""Cost that shifting readings back has to take off there: odds of a million to one. A choice."""
+LOST_COUNTS_SHARE = 0.3
+"""Share of what the explanation leaves beyond noise that all of this has to take off before the log is
+searched again. A choice."""
 SATURATED_LEAST_RUN = 20
+"""Samples at an end of the range. A choice."""
 SATURATED_SHARE = 0.5
+"""Their share of the samples near that end. A choice."""
 SATURATED_NEAR_SIGMA = 1.5
+"""Noise within which a sample is near it. A choice."""
 SATURATED_BESIDE = 10
-"""Samples at an end of the range; their share of those within 1.5 sigma of it; samples lost beside."""
-SLOW_LEAST_SHARE, SLOW_TIMES_CHANCE, SLOW_REGULAR_SHARE = 0.1, 3.0, 0.7
-"""A sensor that is slower than the log: share of rows that are filled in, in all and as a multiple of
-what chance would do, and share of rows between new readings that are evenly apart. Choices: where noise
-shakes readings by more than their steps, chance is under 0.1."""
-HELD_EVIDENCE, HELD_SHARE, HELD_MOST_ROWS = 50.0, 0.5, 6
-"""A reading that is held under noise: chi-square by which that is likelier than a new one in every row,
-also as a share of what is expected; rows of a hold. Derived: of new ones it is as far below 0, so that
-half of it is midway between one and none, and 50 is seven standard deviations of the motion's part."""
-HUM_MAINS_HZ, HUM_HARMONICS, HUM_GRID_HZ = (50.0, 60.0), 3, 0.2
+"""Samples on either side that are set aside, too. A choice."""
+SLOW_LEAST_SHARE = 0.1
+"""Share of rows that are filled in, of a sensor that is slower than the log. A choice: where noise
+shakes readings by more than their steps, chance is under that."""
+SLOW_TIMES_CHANCE = 3.0
+"""The same as a multiple of what chance would do. A choice."""
+SLOW_REGULAR_SHARE = 0.7
+"""Share of rows between new readings that are evenly apart. A choice."""
+HELD_EVIDENCE = 50.0
+"""Chi-square by which a reading that is held under noise is likelier than a new one in every row.
+Derived: seven standard deviations of the motion's part."""
+HELD_SHARE = 0.5
+"""The same as a share of what is expected. Derived: of new ones it is as far below 0, so that half of it
+is midway between one and none."""
+HELD_MOST_ROWS = 6
+"""Rows of a hold at most. A choice."""
+HUM_MAINS_HZ = (50.0, 60.0)
+"""Physical: mains frequencies at which a sensor may hum."""
+HUM_HARMONICS = 3
+"""Multiples of them at which it may, too. A choice."""
+HUM_GRID_HZ = 0.2
+"""Physical: how far a grid may be off: it is kept within that."""
 HUM_LOWEST_HZ = 5.0
-"""Mains frequencies and the multiples of them at which a sensor may hum; how far a grid may be off (it
-is kept within 0.2 Hz); and the lowest frequency that sampling may fold a line to: motions are slower."""
+"""Physical: the lowest frequency that sampling may fold a line to: motions are slower."""
 HUM_FALSE_ALARMS = 1e-6
 """Derived: of white noise that is called a line, per sensor and multiple."""
 SMOOTHED_ZERO, SMOOTHED_ZERO_LEVEL = 6.0, 0.05
@@ -64,36 +91,49 @@ OUTLIER_FALSE_ALARMS = 0.001
 """Derived: samples of a column of a trial that white noise makes outliers of, on average: a clean log of
 five trials has none in 98 of 100. Of 3000 samples that asks for 5.1 sigma."""
 OUTLIER_CLEARANCE = 8.0
+"""How far an outlier is off, in what its neighbours leave of one curve beyond the noise: a corner comes
+to 4."""
 OUTLIER_MISFIT = 2.0
+"""Times the variance of the noise that they may leave by chance."""
 OUTLIER_ONE_SIDED = 0.5
+"""Share of that by which it is off each side alone: at a corner, 0 of one side."""
 OUTLIER_MOST_BESIDE = 4
+"""Samples that a window may do without, itself among them. A choice."""
 OUTLIER_MOST_RUN = 5
-"""How far an outlier is off, in what its neighbours leave of one curve (a corner comes to 4) beyond the
-noise, of which they may leave twice the variance by chance; the share of it by which it is off each side
-alone (at a corner, 0 of one side); samples that a window may do without, itself among them; and outliers
-in a row: what lasts longer is an event."""
-OUTLIER_LEFT_SIGMA, OUTLIER_LEFT_QUIET_SIGMA, OUTLIER_LEFT_NEIGHBOURS = 5.0, 3.5, 2
+"""Outliers in a row: what lasts longer is an event. A choice."""
+OUTLIER_LEFT_SIGMA = 5.0
+"""How far outliers beside an explanation are off. Derived: by chance once in two million readings."""
+OUTLIER_LEFT_QUIET_SIGMA = 3.5
+"""How far their neighbours are off at most. Derived: one of four is further once in 500 times."""
+OUTLIER_LEFT_NEIGHBOURS = 2
+"""Neighbours on each side that are quiet. A choice."""
 OUTLIER_LEFT_MOST_RUN = 10
-OUTLIER_MOST_LEFT, OUTLIER_LEFT_SHARE = 0.02, 0.3
-"""Outliers beside an explanation: how far they are off, while so many neighbours on each side are not
-(derived: by chance once in two million readings, and once in 500 neighbours); how many in a row, with
-fewer quiet readings between them (a tenth of a second of most logs: what lasts longer is an event); the
-share of a sensor's readings that they come to at most; and what they have to be of what is left beyond
-noise."""
+"""Outliers in a row, with fewer quiet readings between them: a tenth of a second of most logs, as what
+lasts longer is an event. A choice."""
+OUTLIER_MOST_LEFT = 0.02
+"""Share of a sensor's readings that they come to at most. A choice."""
+OUTLIER_LEFT_SHARE = 0.3
+"""Share of what is left beyond noise that they have to be. A choice."""
 UNSAMPLED_SIGMA = 1.0
 """By which the motion of the base between its samples may matter before readings count for less: as much
 as the noise, at the worst of all samples (derived)."""
-GROWING_LOG_LIKELIHOOD, GROWING_LEAST, GROWING_MOST = 50.0, 1.3, 20.0
-"""Noise that grows with rate or torque: twice the gain of the logarithm of the likelihood by growing
-(derived: chi-square of one number comes to 16 once in 16 000 sensors of normal noise; a choice, three
-times that, for noise of heavy tails); noise at the largest rate / that at rest, at least and at most."""
+GROWING_LOG_LIKELIHOOD = 50.0
+"""Twice the gain of the logarithm of the likelihood by noise that grows with rate or torque. Derived:
+chi-square of one number comes to 16 once in 16 000 sensors of normal noise; a choice, three times that,
+for noise of heavy tails."""
+GROWING_LEAST = 1.3
+"""Noise at the largest rate / that at rest, at least. A choice."""
+GROWING_MOST = 20.0
+"""The same, at most. A choice."""
 GROWING_WHITE = 0.15
 """By which the noise from differences of orders 1 and 4 may differ, where it is large: 3.5 times the
 scatter of medians of 600 differences, 3 % and 2.5 %, rounded up for fewer (derived)."""
-TRIALS_NOISE_BY_CHANCE, TRIALS_NOISE_LEAST = 1e-6, 1.15
-"""Noise that differs from trial to trial: by chance as much once in so many sensors, of normal noise (of
-heavy tails it scatters by a fifth more); largest / smallest, at least, from which a trial counts by a
-third more or less than another. Choices."""
+TRIALS_NOISE_BY_CHANCE = 1e-6
+"""Share of sensors whose noise differs as much from trial to trial by chance, if it is normal; of heavy
+tails it scatters by a fifth more. A choice."""
+TRIALS_NOISE_LEAST = 1.15
+"""Largest noise of a trial / the smallest, at least: from there a trial counts by a third more or less
+than another. A choice."""
 TRIALS_NOISE_WHITE = 0.15
 """By which the noise of a trial from differences of orders 2 and 4 may differ: 3.5 times their scatter
 of 200 readings, 4 % (derived)."""
