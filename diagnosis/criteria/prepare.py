@@ -1,51 +1,64 @@
 """Preparing a log for replay (prepare/)."""
 
 AVERAGED_ABOVE_HZ = 220.0
+"""Samples a second from which means are diagnosed in their place: two a window and more. A choice."""
 AVERAGING_S = 0.01
-AVERAGED_LEAST_SHARE, ALIKE_RATES = 0.5, 1.5
-"""Samples a second from which means over a hundredth of a second, a step of the replay, are diagnosed in
-their place; the share of its samples that a window has to have; and the longest median step of a trial /
-the shortest, above which there are no means: less leaves their windows two thirds of their samples."""
+"""Window of these means: a step of the replay."""
+AVERAGED_LEAST_SHARE = 0.5
+"""Share of its samples that a window has to have. A choice."""
+ALIKE_RATES = 1.5
+"""Longest median step of a trial / the shortest, above which there are no means: less leaves windows two
+thirds of their samples."""
 STEADY_DEPTH_MM = 0.2
 """A depth that changes by less is constant: what is left is the reading of the stage."""
 GAP_STEPS = 1.7
 """Median steps that are a gap, between one sample and two."""
 GAP_SHORT_S = 0.15
+"""Gaps in which a motion has no time for more than a curve through both sides shows. A choice."""
 GAP_MISFIT = 3.0
+"""Noise of that curve beyond which none fits. A choice."""
 GAP_LONG_S = 0.4
-"""Gaps in which a motion has no time for more than a curve through both sides shows; its noise, beyond
-which no curve fits; and gaps in which it may have turned there and back."""
+"""Gaps in which a motion may have turned there and back. A choice."""
 GAP_CERTAIN_DEG = 0.2
+"""Where a curve through the readings on both sides is uncertain by more, the readings after the gap are
+not used for a while; after a long gap, until the slowest mode of the needle has taken what is uncertain
+below that. Set on blind logs of seeds 1 and 2, as the next three."""
 GAP_FORGOTTEN_S = 1.0
+"""How long they are not used: by then the needle has mostly relaxed."""
 GAP_FORGOTTEN_LENGTHS = 5.0
+"""Or this many lengths of a short gap."""
 GAP_SIDE_SAMPLES = 12
-"""Where a curve through the readings on both sides (12 each at most) is uncertain by more, the readings
-after the gap are not used for a second, or five lengths of a short gap: by then the needle has mostly
-relaxed; and longer after a long one, until the slowest mode of the needle has taken what is uncertain
-below that. Set on blind logs of seeds 1 and 2."""
+"""Readings on each side that the curve goes through at most."""
 GAP_LOST_DEG = 1.0
+"""Uncertainty beyond which dry friction keeps a gap in mind. A choice."""
 GAP_ERASED_TWISTS = 2.0
-"""Beyond a degree of uncertainty dry friction keeps a gap in mind, until the base has turned one way by
-twice the usual twist of the shaft: then all of the shaft slides the same way (return-point memory)."""
+"""Usual twists of the shaft by which the base has to turn one way until that is over. Derived: then all
+of the shaft slides the same way (return-point memory)."""
 GAP_USUAL_TWIST = 0.9
-GAP_HELD_DEG_S, GAP_UNKNOWN_TWIST_DEG = 5.0, 15.0
 """Quantile of the twist of a held shaft that is the usual one: beyond are outliers and what a fast turn
-left. Physical: rate below which the base holds beside a needle's turns of tens of degrees a second, and
-the usual twist where the tip is not measured; a larger one discards more readings after a gap."""
+left. A choice."""
+GAP_HELD_DEG_S = 5.0
+"""Physical: rate below which the base holds, beside a needle's turns of tens of degrees a second."""
+GAP_UNKNOWN_TWIST_DEG = 15.0
+"""Physical: the usual twist where the tip is not measured; a larger one discards more readings."""
 STRAIGHT_DEG = 0.1
 """What the step of the base may change by from sample to sample where it is straight."""
 COARSE_STEP_SIGMA = 2.0
-COARSE_LEAST_RUNS, COARSE_LEAST_KINDS = 20, 2
-"""Derived: steps of twice the noise add a sixth to it, 1 / sqrt(12) of each; below, noise hides them.
-And short runs of equal readings, or different multiples of a step that a reading moves by, either of
-which a coarse sensor shows: an exact ramp without noise has no short runs, and moves by one step."""
+"""Derived: steps of twice the noise add a sixth to it, 1 / sqrt(12) of each; below, noise hides them."""
+COARSE_LEAST_RUNS = 20
+"""Short runs of equal readings that a coarse sensor shows: an exact ramp without noise has none."""
+COARSE_LEAST_KINDS = 2
+"""Or different multiples of a step that a reading moves by: such a ramp moves by one step."""
 SHAKEN_STEP_SIGMA = 3.0
 """Derived: noise shakes a reading across steps, and its mean stays off by
 q / pi exp(-2 (pi sigma / q)^2): a tenth of sigma at three, seven tenths at five."""
-HELD_S, HELD_STEPS = 0.12, 1.0
+HELD_S = 0.12
+"""Time in which the means of a coarse reading that stands still change by less than a step. Set on two
+logs that were rounded, as the next two: it leaves 1.16 and 1.18 as slow part; all readings left 2.34."""
+HELD_STEPS = 1.0
+"""Steps by which they change less."""
 HELD_COUNTED_S = 0.5
-"""A coarse reading whose means change by less than a step in so long stands still, and counts so often.
-Set on two logs that were rounded: it leaves 1.16 and 1.18 as slow part; all readings left 2.34."""
+"""How often a reading that stands still counts."""
 SMOOTHING_SIGMA = 3.0
 """Confidence of a window's value, standard deviations. Set on a practice log with a rubbing sheath."""
 REVERSAL_SIGMA, STANDSTILL_SIGMA, STANDSTILL_SAMPLES = 1.0, 2.0, 17
@@ -67,20 +80,29 @@ INERTIA_LOST_SIGMA = 0.5
 INSERTED_AT_LEAST = 0.1
 """Physical: share of its logged depth that the shallowest trial really had; nobody is off by more."""
 START_LOOK_S = 0.25
-START_SIGMA, START_LEAST_SIGMA = 5.0, 3.0
+"""First readings of the tip through which a parabola is laid, to see a late start. A choice."""
+START_SIGMA = 5.0
+"""Standard deviations of its intercept by which it begins off the base. 94 clean logs came to 3.5 at
+most, 60 trials that were cut to 17 and more."""
+START_LEAST_SIGMA = 3.0
+"""Noise of one reading by which it begins off, too, since noise may not be white. A choice."""
 START_OUTLIER_SIGMA = 5.0
+"""Noise beyond which one of these readings is an outlier. A choice."""
 START_TORQUE_FACTOR = 2.0
-"""A late start: a parabola through the first readings of the tip begins off the base by so many standard
-deviations of its intercept, and of one reading, since noise may not be white. Torque and twist agree
-within the last factor. 94 clean logs came to 3.5 at most, 60 trials that were cut to 17 and more."""
-START_MOVING_DEG_S, START_OFF_ZERO_DEG, START_FROM_REST = 5.0, 1.0, 0.5
-"""Rate and angle of the base at the first sample from which a trial began under way, and the share of
-its mean rate that a base has first if it starts from rest. Choices: an encoder is zeroed to some tenths
-of a degree, a base at rest scatters by less than 1 deg/s; a steady turn has 1, one from rest 0."""
+"""Factor within which torque and twist agree. A choice."""
+START_MOVING_DEG_S = 5.0
+"""Rate of the base at the first sample from which a trial began under way. A choice: a base at rest
+scatters by less than 1 deg/s."""
+START_OFF_ZERO_DEG = 1.0
+"""The same for its angle. A choice: an encoder is zeroed to some tenths of a degree."""
+START_FROM_REST = 0.5
+"""Share of its mean rate that a base has first if it starts from rest. A choice: a steady turn has 1,
+one from rest 0."""
 START_DECAYS = 10.0
-START_MOST_UNUSED = 0.25
 """Time constants of the nominal needle's second mode after which a shape of twist that two numbers do
-not tell has faded (derived: 90 deg to 0.004 deg), and the largest share of a trial that is left out."""
+not tell has faded. Derived: 90 deg to 0.004 deg."""
+START_MOST_UNUSED = 0.25
+"""Largest share of a trial that is left out for that. A choice."""
 START_FILTER_DECAYS = 8.0
 """Time constants of a filter of the torque for which it shows what was before a trial that began late
 (derived: 300 sigma to 0.1)."""
