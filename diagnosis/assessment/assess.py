@@ -1,6 +1,6 @@
 """Everything that is reported in addition to the verdict."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
 
@@ -134,12 +134,12 @@ def assess(
     beside = further()
     with_one_more = gap_with_one_more(verdict.best.fit, beside) if beside else {}
     spread = spread_of()
-    own = intervals(near.fit, spread)
-    accepted = {e: p for e, p in own.items() if e in verdict.effects}
-    advice_of = workers.begin(advise, coarse, verdict, *where, accepted) if complete else None
-    limits = _limits(coarse, verdict, beside, effects, workers) if beside else {}
     if stop.due:
         stop.leave_out(REPLICATES)
+    own = intervals(near.fit, spread)
+    accepted = {e: p for e, p in own.items() if e in verdict.effects}
+    advice_of = workers.begin(_advice, coarse, verdict, *where, accepted) if complete else None
+    limits = _limits(coarse, verdict, beside, effects, workers) if beside else {}
     plain = problem.noise.uncoloured
     gap = gap_reduction(
         nominal_residuals(replace(problem, noise=plain), nominal), in_units_of(problem, after, plain)
@@ -170,11 +170,26 @@ def assess(
     )
 
 
-def _next_experiment(verdict: Verdict, advice_of: Callable[[], str], stop: StopSignal) -> str:
+def _advice(
+    coarse: FitProblem,
+    verdict: Verdict,
+    nominal: ResidualBreakdown,
+    left: ResidualBreakdown,
+    parameters: Mapping[str, Mapping[str, Interval]],
+) -> tuple[str, bool]:
+    """The next experiment in words, and whether runs were simulated for it: after a stop, none are."""
+    whole = not stopping()
+    return advise(coarse, verdict, nominal, left, parameters), whole
+
+
+def _next_experiment(
+    verdict: Verdict, advice_of: Callable[[], tuple[str, bool]], stop: StopSignal
+) -> str:
     """The next experiment in words; after a stop, what to change stands alone."""
-    if stop.due and verdict.kind in (VerdictKind.EXPLAINED, VerdictKind.UNDECIDED):
+    advice, whole = advice_of()
+    if not whole and verdict.kind in (VerdictKind.EXPLAINED, VerdictKind.UNDECIDED):
         stop.leave_out(NEXT)
-    return advice_of()
+    return advice
 
 
 def _twist(

@@ -90,6 +90,16 @@ def test_a_verdict_stands_where_the_assessment_alone_is_cut_short(stopped_at):
     assert "best so far: Dry (Coulomb) friction along the shaft explains the gap" in headline(found)
 
 
+def test_what_was_done_before_a_stop_is_not_said_to_be_left_out(stopped_at):
+    """Intervals come before detection limits; in one process, twist and advice come after them."""
+    found = stopped_at("detection limits")
+    assert set(found.stopped.left_out) == {
+        "detection limits",
+        "twist along the shaft",
+        "next experiment",
+    }
+
+
 def test_a_limit_before_the_nominal_replay_ends_is_an_error_that_says_so():
     with pytest.raises(StoppedEarly, match="limit of 0.001 s: stopped before the nominal rig"):
         diagnose(log_of(NOMINAL, seconds=2.0), workers=1, limit_s=0.001)

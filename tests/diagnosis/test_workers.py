@@ -223,3 +223,11 @@ def test_errors_of_what_is_called_meanwhile_are_ignored(capfd):
     with process_pool(2, meanwhile=lambda: misuse(1)) as pool:
         assert pool.each("x", work, TASKS) == EXPECTED
     assert capfd.readouterr().err == ""
+
+
+def test_without_a_call_to_the_processes_nothing_is_called_meanwhile():
+    """Their first call forks them, and they would share the locks of a thread that began before."""
+    done = []
+    with process_pool(2, meanwhile=lambda: done.append(1)):
+        pass
+    assert done == []
