@@ -173,13 +173,13 @@ def process_pool(
         with sharing(cores), threadpool_limits(1):
             yield Workers(pool=pool, count=count, progress=progress, stop=stop)
     finally:
-        pool.wait_for_the_thread()
         pool.shutdown(wait=False, cancel_futures=True)
         ours = [process for process in active_children() if process not in others]
         for process in ours:
             process.kill()
         for process in ours:
             process.join()
+        pool.wait_for_the_thread()  # last: who interrupts this waits for no process that is left
 
 
 class _Pool(ProcessPoolExecutor):

@@ -6,6 +6,7 @@ import time
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from multiprocessing import active_children
+from threading import Event, Timer
 
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
@@ -231,3 +232,18 @@ def test_without_a_call_to_the_processes_nothing_is_called_meanwhile():
     with process_pool(2, meanwhile=lambda: done.append(1)):
         pass
     assert done == []
+
+
+def test_who_interrupts_the_wait_for_what_is_called_meanwhile_leaves_no_process():
+    """Else the end of this process would wait for them for ever."""
+    before, waited_for, handler = active_children(), Event(), signal.getsignal(signal.SIGINT)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    interrupt = Timer(0.5, os.kill, args=(os.getpid(), signal.SIGINT))
+    try:
+        with pytest.raises(KeyboardInterrupt), process_pool(2, meanwhile=waited_for.wait) as pool:
+            pool.each("x", os.getpid, [Task(effects=(), arguments=())])
+            interrupt.start()
+        assert [process for process in active_children() if process not in before] == []
+    finally:
+        waited_for.set()
+        signal.signal(signal.SIGINT, handler)
