@@ -71,19 +71,30 @@ HUM_LOWEST_HZ = 5.0
 """Physical: the lowest frequency that sampling may fold a line to: motions are slower."""
 HUM_FALSE_ALARMS = 1e-6
 """Derived: of white noise that is called a line, per sensor and multiple."""
-SMOOTHED_ZERO, SMOOTHED_ZERO_LEVEL = 6.0, 0.05
-SMOOTHED_LEVEL, SMOOTHED_LEAST_ORDER, SMOOTHED_MISFIT = 0.005, 1.4, 0.5
-SMOOTHED_OVER_ROUNDING, SMOOTHED_SEGMENTS = 4.0, 8
-"""Readings that were smoothed after recording. A zero: times by which their spectrum rises on both
-sides, five standard deviations of levels, and its own level in that of the claimed noise. A Butterworth
-filter: level that is reached, least order (motion without noise falls as behind one of first order),
-and how far off logarithms of levels are, mean absolute: of 13 filters 0.07 to 0.37, of the one other
-log that reached the level 2.6. Times the level of rounding that tells, and segments of readings that a
-spectrum is the mean of, at least; they overlap by half. None of 645 logs that were not smoothed."""
-BAND_SHARE, BAND_ROLL_OFF, BAND_LOBES = 0.375, 0.5, 6
-"""The low band of smoothed readings: its corner in that of the filter, how far it rolls off on both
-sides of that, and lobes of its kernel on either side. Choices: where the band ends, at 0.56 of its
-corner, a Butterworth filter of second order leaves 0.91."""
+SMOOTHED_ZERO = 6.0
+"""Times by which the spectrum of readings rises on both sides of a zero, where they were smoothed after
+recording: five standard deviations of levels. None of 645 logs that were not smoothed was told as
+smoothed, with this and the next six."""
+SMOOTHED_ZERO_LEVEL = 0.05
+"""Level of that zero in that of the claimed noise, at most."""
+SMOOTHED_LEVEL = 0.005
+"""The same level, which a Butterworth filter brings the spectrum below."""
+SMOOTHED_LEAST_ORDER = 1.4
+"""Least order of that filter: motion without noise falls as behind one of first order."""
+SMOOTHED_MISFIT = 0.5
+"""How far off logarithms of levels are from its curve at most, mean absolute. Of 13 filters 0.07 to
+0.37; of the one other log that reached the level, 2.6."""
+SMOOTHED_OVER_ROUNDING = 4.0
+"""Times the level of rounding below which levels tell nothing. A choice."""
+SMOOTHED_SEGMENTS = 8
+"""Segments of readings that a spectrum is the mean of at least; they overlap by half. A choice."""
+BAND_SHARE = 0.375
+"""Corner of the low band of smoothed readings in that of their filter."""
+BAND_ROLL_OFF = 0.5
+"""How far it rolls off on both sides of its corner, in that corner. Derived: where the band ends, at
+0.56 of its filter's corner, a Butterworth filter of second order leaves 0.91."""
+BAND_LOBES = 6
+"""Lobes of its kernel on either side. A choice."""
 BELIEVED_SCATTER = 0.2
 """Times the claim: a sensor that scatters less is filtered, simulated, or in another unit (57 times less
 in rad, 1000 in N m), which is told; and repeats prove nothing."""

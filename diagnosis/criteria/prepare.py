@@ -61,12 +61,15 @@ HELD_COUNTED_S = 0.5
 """How often a reading that stands still counts."""
 SMOOTHING_SIGMA = 3.0
 """Confidence of a window's value, standard deviations. Set on a practice log with a rubbing sheath."""
-REVERSAL_SIGMA, STANDSTILL_SIGMA, STANDSTILL_SAMPLES = 1.0, 2.0, 17
-"""Swing of the smoothed base below which it does not turn, in noise of its encoder: means of five and
-more samples are within one standard deviation. Where it turns, it rests as long as n values are within
-so many times noise / sqrt(n) of their middle, and not for fewer samples: a sine has such a top too.
-Set on ramps, smooth turns and sines of which the true motion is known: a bearing's friction comes out
-0.3 % too high where it was 2 to 14 %, and sines are left as they were."""
+REVERSAL_SIGMA = 1.0
+"""Swing of the smoothed base below which it does not turn, in noise of its encoder. Derived: means of
+five and more samples are within one standard deviation."""
+STANDSTILL_SIGMA = 2.0
+"""Where it turns, it rests as long as n values are within so many times noise / sqrt(n) of their middle.
+Set on ramps, smooth turns and sines of which the true motion is known, as the next: a bearing's friction
+comes out 0.3 % too high where it was 2 to 14 %, and sines are left as they were."""
+STANDSTILL_SAMPLES = 17
+"""Fewest of these values: a sine has a top that is as flat for some samples."""
 TORQUES_OF_UNIT_SCALE_N_MM = (0.01, 30.0)
 """Physical: half the range of the torque on rigs for which the library's bounds are written. Beyond,
 bounds follow the measured torque instead of the nominal stiffness."""
@@ -109,11 +112,12 @@ START_FILTER_DECAYS = 8.0
 START_SPREAD_DEG = 90.0
 """One standard deviation of what the base turned by before a late start, about the twist that is read. A
 choice, so broad that a second of any trial outweighs it."""
-START_LEFT_TIMES, START_LEFT_SHARE = 3.0, 0.5
-"""Slowest time constants of the nominal needle from the first sample on, and the share of what the best
-explanation leaves beyond noise that lies within them, from which trials may begin wound up. Derived: of
-an initial twist 5 % are left by then; what a law leaves is spread over a trial. Measured: 1.07 on a bent
-needle that had come to rest before each trial (6 % of the samples), 0.01 and 0.08 on two laws outside
-the library."""
+START_LEFT_TIMES = 3.0
+"""Slowest time constants of the nominal needle from the first sample on, within which an initial twist
+shows. Derived: 5 % of it are left by then."""
+START_LEFT_SHARE = 0.5
+"""Share of what the best explanation leaves beyond noise that lies within them, from which trials may
+begin wound up: what a law leaves is spread over a trial. Measured: 1.07 on a bent needle that had come
+to rest before each trial (6 % of the samples), 0.01 and 0.08 on two laws outside the library."""
 LEAST_DIFFERENCES = 20
 """Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
