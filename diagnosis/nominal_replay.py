@@ -47,7 +47,7 @@ class NominalReplay:
 
     Attributes:
       log: the log that is diagnosed: averaged, if it has more samples than are of use, and without
-        the first readings of trials that began late.
+        the first readings of trials that began late, and those after uncertain gaps.
       problem: the log, its noise and the nuisance parameters.
       fit: fit of the pasts of trials that began late, and of nothing else.
       predictions: predictions of the nominal rig, by trial of the problem.
@@ -104,14 +104,13 @@ def replay_nominal(log: RigLog) -> NominalReplay:
         if not log.noise_left
         else _begun_as_read(prepared, read, noise)
     )
-    library = library_of(scale_of(begun))
+    known, library = without_unused(log, begun), library_of(scale_of(begun))
     problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)
     if not late_starts_of(begun):
         fit = nominal_fit(nominal_residuals(problem, predictions))
-        return NominalReplay(log=log, problem=problem, fit=fit, predictions=predictions)
+        return NominalReplay(log=known, problem=problem, fit=fit, predictions=predictions)
     fit = fitted_pasts(problem)
     predictions = replay(begun, fit.parameterization.rig(fit.x))
-    known = without_unused(log, begun)
     return NominalReplay(log=known, problem=problem, fit=fit, predictions=predictions)
 
 

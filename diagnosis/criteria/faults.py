@@ -67,6 +67,8 @@ HUM_HARMONICS = 3
 """Multiples of them at which it may, too. A choice."""
 HUM_GRID_HZ = 0.2
 """Physical: how far a grid may be off: it is kept within that."""
+HUM_WANDERS_HZ = 0.05
+"""Physical: how far the grid is from its usual frequency, from one trial to another."""
 HUM_LOWEST_HZ = 5.0
 """Physical: the lowest frequency that sampling may fold a line to: motions are slower."""
 HUM_FALSE_ALARMS = 1e-6

@@ -14,7 +14,7 @@ from diagnosis.prepare.motion.inertia import inertia_torque
 from diagnosis.prepare.needle_memory import time_constant_s
 from diagnosis.prepare.noise.rounding import rounded_noise, steps_of, without_repeats
 from diagnosis.prepare.noise.sensor_noise import base_noise_deg
-from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.prepare.prepared_log import Mask, PreparedLog, PreparedTrial
 
 Array = NDArray[np.float64]
 
@@ -75,8 +75,15 @@ def _prepared(trial: Trial, filled: Trial, sigma_deg: float) -> PreparedTrial:
         tip_torque_n_mm=filled["tip_torque_n_mm"] if filled.has("tip_torque_n_mm") else None,
         readings={sensor: filled[sensor] for sensor in SENSORS if filled.has(sensor)},
         logged=np.isin(filled["time_s"], trial["time_s"]),
+        after_gaps=_unread(filled),
         time_errors_s=_time_errors_s(trial, filled["time_s"]),
     )
+
+
+def _unread(trial: Trial) -> Mask:
+    """Mask of rows without a reading of any sensor, (N,)."""
+    read = [np.isfinite(trial[sensor]) for sensor in SENSORS if trial.has(sensor)]
+    return ~np.any(read, axis=0) if read else np.zeros(trial["time_s"].size, bool)
 
 
 def _time_errors_s(trial: Trial, time_s: Array) -> Array | None:

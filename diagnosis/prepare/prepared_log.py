@@ -38,6 +38,8 @@ class PreparedTrial:
       logged: mask of rows that are samples of the log; the others fill its gaps.
       inertia: the share of inertia in its base torque.
       late_start: None: it begins untwisted and at rest.
+      after_gaps: mask of rows whose readings are not used because the base's motion in a gap before them
+        is uncertain; None: no row.
       weights: by sensor, those of its residuals; 1 for other sensors.
       time_errors_s: what `time_s` may be off by, by example, (K, N); None: they are exact.
       smoothed_above_hz: corner of the filter by which readings were smoothed, by sensor.
@@ -54,6 +56,7 @@ class PreparedTrial:
     logged: Mask
     inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
     late_start: LateStart | None = None
+    after_gaps: Mask | None = None
     weights: Mapping[str, Array] = field(default_factory=dict)
     time_errors_s: Array | None = None
     smoothed_above_hz: Mapping[str, float] = field(default_factory=dict)

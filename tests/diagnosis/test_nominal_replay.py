@@ -52,3 +52,19 @@ def test_the_noise_is_that_of_the_log_whatever_the_nominal_rig_lacks(nominal):
     right = replay_nominal(log_of(NOMINAL, seconds=6.0))
     for sensor in ("tip_angle_deg", "base_torque_n_mm"):
         assert nominal.problem.noise[sensor] == pytest.approx(right.problem.noise[sensor], rel=0.15)
+
+
+def test_readings_that_are_not_used_after_a_gap_are_in_no_residual_either():
+    whole = log_of(RigParameters(kinetic_n_mm_per_mm=0.001), seconds=6.0)
+    (one,) = whole.trials
+    # Across the turn of a ramp: what the base did there is unknown.
+    kept = (one["time_s"] < 1.0) | (one["time_s"] > 1.7)
+    gapped = replace(one, table=one.table[kept].reset_index(drop=True))
+    nominal = replay_nominal(replace(whole, trials=(gapped,)))
+    (left,) = nominal.log.trials
+    after = (gapped["time_s"] > 1.7) & (gapped["time_s"] < 2.7)  # it has forgotten after 1 s at least
+    for sensor in ("tip_angle_deg", "base_torque_n_mm"):
+        assert np.isnan(left[sensor][after]).all()
+        assert np.isfinite(left[sensor][gapped["time_s"] < 1.0]).all()
+        assert np.isfinite(gapped[sensor]).all()
+    assert np.isfinite(left["base_angle_deg"]).all()

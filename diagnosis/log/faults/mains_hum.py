@@ -1,7 +1,7 @@
 """Hum: a line at the mains frequency in the readings of a sensor.
 
 The mains of 50 or 60 Hz, and its harmonics, reach cables and amplifiers. Its frequency is that of the
-grid, off by a few hundredths of 1 Hz, and its amplitude and phase are steady:
+grid, off by a few hundredths of 1 Hz which differ from trial to trial; in one, it is steady:
 
     reading = signal + a cos(2 pi f t) + b sin(2 pi f t) + noise
 
@@ -9,15 +9,16 @@ A needle does nothing of the kind: what it does lasts for a motion. Over a part 
 tapered, a line is sharper than 4 / T, and motions leave next to nothing at its frequency
 (`spectral_line`). So a line is what stands out of the spectrum beside it, in all parts together. For
 noise the power at a frequency / the mean power beside it has an exponential distribution, and its sum
-over K parts that of a gamma distribution. The line of each part is then subtracted, which costs it two
-degrees of freedom. Parts end where nothing was read for a while, and before the grid wanders.
+over K parts that of a gamma distribution. The line of each part is then subtracted at its own
+frequency, which costs it three degrees of freedom. Parts end where nothing was read for a while, and
+before the grid wanders.
 
 A line that the sampling folds to a low frequency is left: there it is a drift, or part of a motion. So
 is one that the base shows, too: it may turn.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,7 @@ from diagnosis.criteria.faults import (
     HUM_HARMONICS,
     HUM_LOWEST_HZ,
     HUM_MAINS_HZ,
+    HUM_WANDERS_HZ,
 )
 from diagnosis.criteria.log import FEWEST_ROWS
 from diagnosis.log.faults.spectral_line import line_in, power_over_neighbours
@@ -52,7 +54,7 @@ def without_hum(trials: Sequence[Trial], noise: Mapping[str, float]) -> tuple[li
             continue
         found = [_subtracted(trial, sensor, found_hz) for trial in changed]
         changed = [trial for trial, _ in found]
-        warnings.append(_told(sensor, found_hz, [size for _, sizes in found for size in sizes]))
+        warnings.append(_told(sensor, [line for _, lines in found for line in lines]))
     return changed, warnings
 
 
@@ -112,18 +114,38 @@ def _shows(time_s: Array, frequency_hz: float) -> bool:
     return time_s.size >= FEWEST_ROWS and _folded_hz(frequency_hz, _rate_hz(time_s)) > HUM_LOWEST_HZ
 
 
-def _subtracted(trial: Trial, sensor: str, frequency_hz: float) -> tuple[Trial, list[float]]:
-    """The trial without a line, and its amplitude in each part."""
-    rest, sizes = trial[sensor].copy(), list[float]()
-    for rows in _parts(trial, sensor, frequency_hz):
-        found = line_in(trial["time_s"][rows], rest[rows], frequency_hz)
-        rest[rows] -= found
-        sizes.append(float(np.sqrt(2 * np.mean(found**2))))
-    return replace(trial, table=trial.table.assign(**{sensor: rest})), sizes
+@dataclass(frozen=True, kw_only=True)
+class _Line:
+    """Frequency of a line in one part of a trial, and its amplitude in the unit of the sensor."""
+
+    frequency_hz: float
+    size: float
 
 
-def _told(sensor: str, line_hz: float, sizes: Sequence[float]) -> str:
+def _subtracted(trial: Trial, sensor: str, about_hz: float) -> tuple[Trial, list[_Line]]:
+    """The trial without the line near a frequency, and that line in each part."""
+    rest, lines = trial[sensor].copy(), list[_Line]()
+    for rows in _parts(trial, sensor, about_hz):
+        time_s, read = trial["time_s"][rows], rest[rows]
+        own_hz = _own_hz(time_s, read, about_hz)
+        line = line_in(time_s, read, own_hz)
+        rest[rows] -= line
+        lines.append(_Line(frequency_hz=own_hz, size=float(np.sqrt(2 * np.mean(line**2)))))
+    return replace(trial, table=trial.table.assign(**{sensor: rest})), lines
+
+
+def _own_hz(time_s: Array, read: Array, about_hz: float) -> float:
+    """Frequency of the line in a part: the grid's when that was recorded."""
+    step_hz = 1.0 / (_FINER * _NEAR * float(time_s[-1] - time_s[0]))
+    most = int(np.ceil(HUM_WANDERS_HZ / step_hz))
+    tried = about_hz + step_hz * np.arange(-most, most + 1, dtype=np.float64)
+    return float(tried[np.argmax(power_over_neighbours(time_s, read, tried))])
+
+
+def _told(sensor: str, lines: Sequence[_Line]) -> str:
+    about_hz = float(np.median([line.frequency_hz for line in lines]))
+    size = float(np.median([line.size for line in lines]))
     return (
-        f"{sensor} hums at {line_hz:.2f} Hz, as the mains do, by {float(np.median(sizes)):.2g}: this is "
-        "subtracted; shield the cable of the sensor"
+        f"{sensor} hums at {about_hz:.2f} Hz, as the mains do, by {size:.2g}: this is subtracted; "
+        "shield the cable of the sensor"
     )

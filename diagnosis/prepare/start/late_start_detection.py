@@ -93,16 +93,17 @@ def begun_as(log: PreparedLog, other: PreparedLog) -> PreparedLog:
 
 
 def without_unused(log: RigLog, begun: PreparedLog) -> RigLog:
-    """The log without the readings that are not used because trials began late."""
+    """The log without readings that are not used: where trials began late, and after uncertain gaps."""
     each = zip(log.trials, begun.trials, strict=True)
-    return replace(log, trials=tuple(_without_unused(trial, own.late_start) for trial, own in each))
+    return replace(log, trials=tuple(_without_unused(trial, own) for trial, own in each))
 
 
-def _without_unused(trial: Trial, start: LateStart | None) -> Trial:
-    if start is None:
-        return trial
+def _without_unused(trial: Trial, begun: PreparedTrial) -> Trial:
+    unused_s = begun.late_start.unused_s if begun.late_start else 0.0
+    unused = trial["time_s"] < trial["time_s"][0] + unused_s
+    if begun.after_gaps is not None:
+        unused |= begun.after_gaps[begun.logged]
     table = trial.table.copy()
-    unused = trial["time_s"] < trial["time_s"][0] + start.unused_s
     table.loc[unused, [sensor for sensor in SENSORS if sensor in table]] = np.nan
     return replace(trial, table=table)
 

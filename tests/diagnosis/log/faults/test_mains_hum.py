@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.stats import chi2
 
 from diagnosis.log.faults.mains_hum import without_hum
 from diagnosis.log.trial import Trial
@@ -46,6 +47,17 @@ def test_hum_is_found_and_subtracted(rate_hz, hum_hz):
         # is known to a 32nd of 1 / T: at the ends of a trial a tenth of the line is left.
         assert np.sqrt(np.mean(off**2)) < 0.4 * np.sqrt(2 * 2 / off.size) + 0.1 * 0.2
         np.testing.assert_array_equal(one[TORQUE], trial(rate_hz, seed=seed)[TORQUE])
+
+
+def test_the_grid_has_a_frequency_of_its_own_in_each_trial():
+    each_hz = {1: 59.98, 2: 60.0, 3: 60.03}
+    humming = [trial(50, hum_hz=own, seed=seed, size=3.0) for seed, own in each_hz.items()]
+    found, (said,) = without_hum(humming, NOISE)
+    assert "hums at 60.00 Hz" in said
+    for one, seed in zip(found, each_hz, strict=True):
+        off = one[TIP] - trial(50, seed=seed)[TIP]
+        # Of the chi-square of three degrees of freedom, with a taper, which counts half of the readings.
+        assert np.sum(off**2) / 0.4**2 < 2 * chi2.isf(1e-3, 3)
 
 
 def test_a_signal_that_jumps_in_a_gap_leaks_nothing_into_the_line():
