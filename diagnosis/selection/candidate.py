@@ -30,7 +30,7 @@ from diagnosis.fitting.swinging import swinging_where_coloured
 from diagnosis.selection.scoring.complexity import complexity_penalty
 from diagnosis.selection.scoring.own_values import gain_of_own_values
 from diagnosis.selection.scoring.scatter import gain_of_exact_constants, open_scatter, scatter_of
-from diagnosis.selection.scoring.unresolved import unresolved_cost
+from diagnosis.selection.scoring.unresolved import unresolved_cost, unresolved_law_cost
 from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
@@ -52,6 +52,7 @@ class Candidate:
       means_of: readings that a sample is the mean of: its noise may be below what a replay resolves.
       begun_late: whether trials began wound up or moving, of which little of what was before is known.
       unresolved_cost: cost by which it may lead for what no model of a needle resolves.
+      unresolved_law_cost: cost by which it may lead a part of it for what laws of effects leave open.
       base_noise_cost: cost that the noise of the encoder makes, for a late sensor alone; else 0.
       coloured: floors of the sensors whose noise is, with a slow part over seconds.
       swinging_hz: frequencies at which sensors with coloured noise swing, as no noise does.
@@ -69,6 +70,7 @@ class Candidate:
     means_of: int = 1
     begun_late: bool = False
     unresolved_cost: float = 0.0
+    unresolved_law_cost: float = 0.0
     base_noise_cost: float = 0.0
     coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
     swinging_hz: Mapping[str, float] = field(default_factory=dict)
@@ -121,6 +123,7 @@ class Candidate:
             return self
         try:
             left = held_out_or_refitted(problem, self.fit)
+            of_laws = unresolved_law_cost(problem, self.fit)
         except SimulationFailed as failed:
             return replace(self, held_out_failure=str(failed))
         return replace(
@@ -131,6 +134,7 @@ class Candidate:
             means_of=problem.log.means_of,
             begun_late=bool(late_starts_of(problem.log)),
             unresolved_cost=unresolved_cost(problem),
+            unresolved_law_cost=of_laws,
             coloured=slow_where_coloured(problem, self.fit.by_trial),
             swinging_hz=swinging_where_coloured(problem, self.fit.by_trial),
         )

@@ -6,13 +6,18 @@ exact to a ten-thousandth, and an effect that is not there may take up what is l
     cost = samples (share rms(reading) / sigma)^2,
 
 where the reading of the tip is its lag behind the base. With readings of some hundred sigma that is
-less than the odds that are asked for anyway.
+less than the odds that are asked for anyway. And laws of effects are no better known than some
+thousandths of what they change, as where dry friction begins to slide:
+
+    cost = (share of the law)^2 sum((change of the readings / sigma)^2).
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria.selection import CONTENDING, UNRESOLVED_SHARE
+from diagnosis.criteria.selection import CONTENDING, LAW_UNRESOLVED_SHARE, UNRESOLVED_SHARE
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS, TIP
 from diagnosis.prepare.prepared_log import PreparedTrial
@@ -29,6 +34,19 @@ def unresolved_cost(problem: FitProblem) -> float:
         if trial.has(sensor)
     )
     return float(UNRESOLVED_SHARE**2 * sum(each))
+
+
+def unresolved_law_cost(problem: FitProblem, fit: Fit) -> float:
+    """Of an explanation and another one that builds on it.
+
+    Raises:
+      SimulationFailed: the rig without the effects of the fit cannot be simulated.
+    """
+    nuisance = fit.parameterization.nuisance
+    without = parameterization_of((), nuisance, problem.library)
+    rig = without.rig(without.joined({own.name: fit.parts[own.name] for own in nuisance}))
+    each = zip(problem.residuals([rig]), fit.by_trial, strict=True)
+    return LAW_UNRESOLVED_SHARE**2 * float(sum(np.sum((run[0] - left) ** 2) for run, left in each))
 
 
 def contending(problem: FitProblem) -> float:

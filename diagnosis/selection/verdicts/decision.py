@@ -140,10 +140,16 @@ def _first_of_equals(candidates: Sequence[Candidate]) -> Candidate:
 def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
     """Of the fewest effects among those within reach of the best; of the simplest form that does.
 
-    Nothing is the answer only where it is the likeliest one.
+    Nothing is the answer only where it is the likeliest one. A part of the best is also within reach
+    where no more leads it than laws of effects leave open.
     """
     best = at_floor[0]
-    near = [c for c in at_floor if c.score - best.score <= SIMPLE_LEAD and (says(c) or c is best)]
+
+    def reach(one: Candidate) -> float:
+        part = {*one.names} < {*best.names}
+        return max(SIMPLE_LEAD, best.unresolved_law_cost if part else 0.0)
+
+    near = [c for c in at_floor if c.score - best.score <= reach(c) and (says(c) or c is best)]
     fewest = min(near, key=lambda c: (len(c.named), c.score))
     forms = (c for c in near if differ_in_one_form(fewest, c) and c.fit.size < fewest.fit.size)
     return next((c for c in forms if c.score - fewest.score <= NESTED_LEAD), fewest)

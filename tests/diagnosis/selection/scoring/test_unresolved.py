@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import BASE, TIP, TORQUE, log_of, problem_of
 
-from diagnosis.criteria.selection import CONTENDING, UNRESOLVED_SHARE
+from diagnosis.criteria.selection import CONTENDING, LAW_UNRESOLVED_SHARE, UNRESOLVED_SHARE
+from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import NOMINAL
-from diagnosis.selection.scoring.unresolved import contending, unresolved_cost
+from diagnosis.selection.scoring.unresolved import contending, unresolved_cost, unresolved_law_cost
 
 SIGMA = {"tip_angle_deg": TIP, "base_torque_n_mm": TORQUE, "base_angle_deg": BASE}
 
@@ -52,3 +53,12 @@ def test_what_is_out_of_the_question_is_behind_by_more_than_what_is_unresolved(p
         unresolved_cost(loud) - unresolved_cost(problem)
     )
     assert contending(problem) > CONTENDING
+
+
+def test_laws_leave_open_a_share_of_what_effects_change():
+    """A torque that is off by 50 times its noise in every sample."""
+    off = problem_of(log_of(replace(NOMINAL, torque_bias_n_mm=50 * TORQUE)), sigma=SIGMA)
+    size = off.log.trials[0].time_s.size
+    found = unresolved_law_cost(off, fit_effects(off, ["torque_bias"]))
+    assert found == pytest.approx(size * (50 * LAW_UNRESOLVED_SHARE) ** 2, rel=0.01)
+    assert unresolved_law_cost(off, fit_effects(off, [])) < 1e-3

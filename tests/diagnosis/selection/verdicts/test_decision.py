@@ -145,3 +145,18 @@ def test_far_above_the_noise_the_plainer_of_what_leaves_hardly_more_is_nearest(g
     each = sorted((left("stiction", gap), left("coulomb_friction", leaves * gap)), key=lambda c: c.score)
     assert each[0].names == ("stiction",)
     assert verdict_on(each).best.names == (named,)
+
+
+@pytest.mark.parametrize(
+    ("part", "lead", "effects"),
+    [
+        (["sheath_friction"], 40.0, ("sheath_friction",)),
+        (["sheath_friction"], 60.0, ("entry_friction", "sheath_friction")),
+        (["base_compliance"], 40.0, ("entry_friction", "sheath_friction")),
+        ([], 40.0, ("entry_friction", "sheath_friction")),
+    ],
+)
+def test_a_part_is_named_where_no_more_leads_it_than_laws_leave_open(part, lead, effects):
+    best = scored(["entry_friction", "sheath_friction"], 100.0, unresolved_law_cost=50.0)
+    found = verdict_on([best, scored(part, 100.0 + lead)])
+    assert (found.kind, found.effects) == (VerdictKind.EXPLAINED, effects)
