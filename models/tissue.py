@@ -53,6 +53,10 @@ class Interface(Record):
     stiffness_n_mm_per_rad_per_mm: Positive | None = None
     """None: tissue that does not yield."""
     time_constant_s: NonNegative = 0.0
+    viscosity_exponent: float = Field(default=1.0, ge=0, le=1)
+    """Power of a factor of its stiffness alone by which its own viscosity goes along; 0: that stays."""
+    flows_at_deg: Positive | None = None
+    """Twist of the tissue beyond which it flows, so that it does not turn back; None: it is elastic."""
     dragged_ratio: float = Field(default=0.0, ge=0, le=1)
     """Share of the shaft's axial motion by which its twist goes along; 0: the tissue stays."""
     orientation_n_mm_per_mm: NonNegative = 0.0

@@ -144,6 +144,8 @@ def _interface(law: Interface) -> Array:
     row[memory_map.L_AXIAL] = law.shared_axial_ratio
     row[memory_map.L_STIFFNESS] = (law.stiffness_n_mm_per_rad_per_mm or 0.0) * _PER_MM
     row[memory_map.L_TIME] = law.time_constant_s
+    row[memory_map.L_FOLLOWS] = law.viscosity_exponent
+    row[memory_map.L_FLOWS] = (law.flows_at_deg or 0.0) * units.DEG
     row[memory_map.L_DRAGGED] = law.dragged_ratio
     row[memory_map.L_CURVATURE] = law.orientation_n_mm_per_mm * _PER_MM
     row[memory_map.L_WAVE] = law.orientation_viscous_n_mm_s_per_mm * _PER_MM

@@ -74,6 +74,8 @@ class FreeLaw:
       tissue_varies: whether the torque of the nominal tissue is multiplied by a curve.
       stiffness_varies: whether its stiffness alone is, if it is elastic.
       asymmetry: asymmetry of the nominal tissue (models.tissue).
+      viscosity_exponent: power of a curve of its stiffness by which its viscosity goes along.
+      flows_at_deg: twist beyond which it flows, if it is elastic; None: it does not.
       rate_curve: factors of its viscous torque (models.tissue).
       rate_range_rad_s: range of rates that they span.
       along_depth: what changes with the depth.
@@ -92,6 +94,8 @@ class FreeLaw:
     tissue_varies: bool = False
     stiffness_varies: bool = False
     asymmetry: float = 0.0
+    viscosity_exponent: float = 1.0
+    flows_at_deg: float | None = None
     rate_curve: tuple[float, ...] = ()
     rate_range_rad_s: tuple[float, float] = (0.01, 10.0)
     along_depth: AlongDepth = AlongDepth()  # noqa: RUF009 - frozen
@@ -110,6 +114,8 @@ class FreeLaw:
             asymmetry=self.asymmetry,
             rate_curve=self.rate_curve,
             rate_range_rad_s=self.rate_range_rad_s,
+            viscosity_exponent=self.viscosity_exponent,
+            flows_at_deg=self.flows_at_deg,
         )
 
     @property
@@ -128,6 +134,8 @@ class FreeLaw:
             curves=tuple(curve.times(strength) for curve in self.curves),
             tissue_varies=self.tissue_varies,
             stiffness_varies=self.stiffness_varies,
+            viscosity_exponent=self.viscosity_exponent,
+            flows_at_deg=self.flows_at_deg / strength if self.flows_at_deg and strength else None,
             asymmetry=max(min(self.asymmetry * strength, _MOST_SIDED), -_MOST_SIDED),
             rate_curve=tuple(factor**strength for factor in self.rate_curve),
             rate_range_rad_s=self.rate_range_rad_s,
@@ -196,6 +204,8 @@ class FreeLaw:
         changes: dict[str, Any] = {
             "varies": self.tissue_varies,
             "stiffness_varies": self.stiffness_varies,
+            "viscosity_exponent": self.viscosity_exponent,
+            "flows_at_deg": self.flows_at_deg,
             "asymmetry": self.asymmetry,
             "contact": self.contact,
         }

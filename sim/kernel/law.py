@@ -12,12 +12,13 @@ and, where the tissue yields (Kelvin-Voigt, in series with all of the above),
 
     f = k phi + k tau dphi/dt,   dphi/dt = omega - s,   phi = phi* + g dphi/dt,
 
-with k times a curve over |phi| where it hardens or softens.
+with k times a curve over |phi| where it hardens or softens, and |phi| at most that at which it flows.
 
 A row may be shaped: its viscous torque follows a curve of the rate, exp of log factors that run
 straight over log |s|; its torque is (1 + a) times for positive and (1 - a) times for negative torque;
-all of it, or k alone, varies in time with a factor that is an input; and it is times a factor of what
-the site has been through, as it was at the start of the stage (sim.kernel.stage.curves).
+all of it, or k alone, varies in time with a factor that is an input (k tau then with a power of that);
+and it is times a factor of what the site has been through, as it was at the start of the stage
+(sim.kernel.stage.curves).
 
 The two-dimensional presliding vector Z is returned to its disc radially: in
 steady sliding it gives level * omega / sqrt(omega^2 + (v/r)^2), and at v = 0 it
@@ -165,9 +166,11 @@ def site_law(
       torque per length, N m / m, its slope against omega, N m s / rad / m, the slip rate, rad/s,
       and the memory that the stage leaves.
     """
-    k = row[memory_map.L_STIFFNESS]
+    k, tau = row[memory_map.L_STIFFNESS], row[memory_map.L_TIME]
     if row[memory_map.L_VARIES] != 0.0:
         k *= stage.factor
+    if row[memory_map.L_VARIES] == memory_map.STIFFNESS_VARIES:
+        tau *= stage.factor ** (row[memory_map.L_FOLLOWS] - 1.0)
     if k <= 0.0:
         torque, slope, new = slip_law(omega, row, extra, old, stage)
         return torque, slope, omega, new
@@ -177,7 +180,7 @@ def site_law(
     s, low, high = slip, -math.inf, math.inf
     share, least = _slip_tolerance(row, extra)
     torque, slope, new = slip_law(s, row, extra, old, stage)
-    elastic, resistance = _elastic(omega - s, k, row, old.phi, stage.g)
+    elastic, resistance = _elastic(omega - s, k, tau, row, old.phi, stage.g)
     rise, change = slope + resistance, 0.0
     for _ in range(_INNER_ITERATIONS):
         miss = torque - elastic
@@ -192,10 +195,10 @@ def site_law(
         if not low < s < high:
             s = 0.5 * (low + high)
         torque, slope, new = slip_law(s, row, extra, old, stage)
-        elastic, resistance = _elastic(omega - s, k, row, old.phi, stage.g)
+        elastic, resistance = _elastic(omega - s, k, tau, row, old.phi, stage.g)
         rise, change = slope + resistance, 0.0
     s -= change
-    phi = old.phi + stage.g * (omega - s)
+    phi = _held(old.phi + stage.g * (omega - s), row)
     left = Memory(new.dry, new.turn, new.axial, phi, new.past)
     rise = max(rise, _LEAST_RISE * resistance)
     return torque - slope * change, slope * resistance / rise, s, left
@@ -207,7 +210,7 @@ def _slip_tolerance(row: Array, extra: float) -> tuple[float, float]:
     rounding where there is a memory, little where there are corners, 0.1 ppm of a smooth law, any of a
     straight one."""
     dry = row[memory_map.L_KINETIC] + row[memory_map.L_STATIC] + row[memory_map.L_SHARED] + extra
-    if dry > 0.0 or 0.0 < row[memory_map.L_CONTACT] < memory_map.TWIST:
+    if dry > 0.0 or row[memory_map.L_FLOWS] > 0.0 or 0.0 < row[memory_map.L_CONTACT] < memory_map.TWIST:
         return 1e-13, 1.0
     if row[memory_map.L_CONTACT] != 0.0 or row[memory_map.L_RATE_STEP] > 0.0:
         return 1e-6, 1.0
@@ -217,13 +220,22 @@ def _slip_tolerance(row: Array, extra: float) -> tuple[float, float]:
 
 
 @embedded
-def _elastic(rate: float, k: float, row: Array, phi: float, g: float) -> tuple[float, float]:
+def _elastic(rate: float, k: float, tau: float, row: Array, phi: float, g: float) -> tuple[float, float]:
     """Torque of the tissue where it yields at a rate, rad/s, and its slope, which stays positive."""
     phi += g * rate
-    torque, resistance = phi + row[memory_map.L_TIME] * rate, row[memory_map.L_TIME] + g
+    held = _held(phi, row)
+    torque, resistance = held + tau * rate, tau + (g if held == phi else _LEAST * g)
+    phi = held
     if row[memory_map.L_CONTACT] == memory_map.TWIST:
         factor, rise = contact_factor(abs(phi), row)
         more = math.copysign(rise, phi) * g * torque
         resistance *= factor
         torque, resistance = factor * torque, max(resistance + more, _LEAST * resistance)
     return k * torque, k * resistance
+
+
+@embedded
+def _held(phi: float, row: Array) -> float:
+    """The twist of the tissue that lasts, rad: where it flows, no more than that."""
+    most = row[memory_map.L_FLOWS]
+    return min(max(phi, -most), most) if most > 0.0 else phi

@@ -89,6 +89,8 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_AXIAL,  # share of the axial speed that this counts
     L_STIFFNESS,  # tissue in series, N m / rad / m; 0: rigid
     L_TIME,  # its time constant, s
+    L_FOLLOWS,  # power of a factor of its stiffness by which its viscosity goes along
+    L_FLOWS,  # its twist beyond which it flows, rad; 0: it is elastic
     L_DRAGGED,  # share of the axial motion by which its twist goes along with the shaft
     L_CURVATURE,  # N m / m
     L_WAVE,  # viscous torque times a wave over the angle, N m s / rad / m
@@ -139,7 +141,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT_7,
     L_CONTACT_8,
     COLUMNS,
-) = range(67)
+) = range(69)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
 SLIP_SO_FAR, AGE, HEAT, BROKEN, TURNED, TWIST = (

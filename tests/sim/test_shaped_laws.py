@@ -97,6 +97,50 @@ def test_it_may_scale_the_stiffness_of_yielding_tissue_alone() -> None:
     assert np.abs(scaled - all_scaled).max() > 0.1 * np.abs(scaled).max()
 
 
+def test_the_viscosity_of_yielding_tissue_goes_along_with_its_stiffness_or_stays() -> None:
+    """Three times the stiffness at sqrt(3) of the viscosity, k tau, or at the same."""
+
+    def torque(factor: float, **elastic: float) -> np.ndarray:
+        tissue = Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING, stiffness_varies=True, **elastic)
+        return turned(tissue, factor=factor).base_torque_n_mm
+
+    stiffer = {"stiffness_n_mm_per_rad_per_mm": 0.03}
+    scaled = {"stiffness_n_mm_per_rad_per_mm": 0.01, "time_constant_s": 0.5}
+    for follows in (0.0, 0.5):
+        expected = torque(1.0, time_constant_s=0.5 * 3.0**follows / 3.0, **stiffer)
+        varied = torque(3.0, viscosity_exponent=follows, **scaled)
+        np.testing.assert_allclose(varied, expected, rtol=0, atol=1e-9)
+        assert np.abs(varied - torque(3.0, **scaled)).max() > 0.01 * np.abs(varied).max()
+
+
+@pytest.mark.parametrize("time_constant_s", [0.0, 0.3])
+def test_tissue_that_flows_bears_no_more_and_gives_back_what_it_bore(time_constant_s: float) -> None:
+    """Steadily, beta s = Y + k tau (omega - s) for its shaft's slip s, whichever way it turns."""
+    k, flows_at_deg = 0.02, 20.0
+    elastic = {"stiffness_n_mm_per_rad_per_mm": k, "time_constant_s": time_constant_s}
+    tissue = Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING, flows_at_deg=flows_at_deg, **elastic)
+    most, viscosity = k * math.radians(flows_at_deg), k * time_constant_s
+    slip = (most + viscosity * RATE) / (DAMPING + viscosity)
+    for rate in (RATE, -RATE):
+        expected = math.copysign(DAMPING * slip * LENGTH_MM, rate)
+        assert steady_n_mm(turned(tissue, rate=rate)) == pytest.approx(expected, rel=1e-6)
+    time_s = np.linspace(0.0, 30.0, 3001)
+    there_and_back = np.interp(time_s, (0.0, 4.0, 5.0, 6.0), np.degrees(RATE) * np.array([0, 4, 4, 3.7]))
+    run = run_of(tissue, time_s, there_and_back, np.ones(time_s.shape))
+    # Half a minute is 30 time constants beta / k: what it bore at rest turned the shaft's slip back.
+    assert run.base_torque_n_mm[500] > 0.1 * expected
+    assert abs(run.base_torque_n_mm[-1]) < 1e-6
+
+
+def test_tissue_that_never_gets_so_far_as_to_flow_is_elastic() -> None:
+    elastic = {"stiffness_n_mm_per_rad_per_mm": 0.02, "time_constant_s": 0.3}
+    far, never = (
+        turned(Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING, **elastic, **flows)).base_torque_n_mm
+        for flows in ({"flows_at_deg": 360.0}, {})
+    )
+    np.testing.assert_allclose(far, never, rtol=0, atol=1e-8)
+
+
 @pytest.mark.parametrize("rate", [RATE, -RATE])
 def test_asymmetry_is_stronger_one_way(rate: float) -> None:
     tissue = Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING, asymmetry=0.3)

@@ -1,8 +1,9 @@
 """Free laws of the tissue: elastic (Kelvin-Voigt), with a stiffness that is a curve of a variable.
 
-The stiffness may also be a curve of the twist of the tissue: it hardens or softens. Or a block of tissue
-slips on its support beyond a torque T0, and takes the needle with it: it turns at a rate that grows
-straight with |T| - T0.
+Its viscosity goes along with the stiffness by a power that is fitted. The stiffness may also be a curve
+of the twist of the tissue: it hardens or softens. Or the tissue flows beyond a torque that it bears at
+most, and does not turn back by what has flowed. Or a block of tissue slips on its support beyond a
+torque T0, and takes the needle with it: it turns at a rate that grows straight with |T| - T0.
 """
 
 from collections.abc import Callable, Sequence
@@ -27,6 +28,16 @@ from models.contact import CONTACT_POINTS, ContactCurve, ContactVariable, contac
 Array = NDArray[np.float64]
 
 OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.DEPTH, Variable.HISTORY)
+_FOLLOWS = Parameter(name="follows", unit="-", low=0.0, high=1.0, start=(0.5,) * 4, neutral=None)
+_FLOWS_AT = Parameter(
+    name="flows_at",
+    unit="deg",
+    low=0.5,
+    high=720.0,
+    start=(20.0, 60.0, 20.0, 60.0),
+    logarithmic=True,
+    neutral=None,
+)
 _BEYOND = 1.2  # times the largest torque, at which the rate of a block that slips is told
 _THRESHOLDS = (0.3, 0.6, 0.3, 0.6)  # of that torque, to start with
 _SLIP_DEG_S = (3.0, 3.0, 30.0, 30.0)
@@ -37,13 +48,14 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that the tissue may lack."""
     over = (_elastic_over(v, ranges) for v in OVER if v in ranges.ends)
     hardening = (_elastic_over_twist(ranges),) if Variable.BASE_ANGLE in ranges.ends else ()
-    return (*over, _elastic_along_depth(ranges), *hardening, *_slipping(ranges))
+    return (*over, _elastic_along_depth(ranges), *hardening, _flowing(ranges), *_slipping(ranges))
 
 
 def _elastic_over(variable: Variable, ranges: LogRanges) -> Family:
     curve = smooth_curve(*ranges.ends[variable], fading=variable in FADING)
-    law = partial(_law_over, variable, curve)
-    return _elastic(ranges, curve, law, over=variable, words=f"with {variable}", unit=UNITS[variable])
+    law, words = partial(_law_over, variable, curve), f"with {variable}"
+    along = (_FOLLOWS,)
+    return _elastic(ranges, curve, law, along, over=variable, words=words, unit=UNITS[variable])
 
 
 def _elastic_along_depth(ranges: LogRanges) -> Family:
@@ -66,13 +78,14 @@ def _elastic(
     ranges: LogRanges,
     curve: SmoothCurve,
     law: Callable[[Sequence[float]], FreeLaw],
+    more: Sequence[Parameter] = (),
     *,
     over: str,
     words: str,
     unit: str,
     says: str = "",
 ) -> Family:
-    """Elastic tissue that changes as a curve; `law` makes the law from the curve's coordinates."""
+    """Elastic tissue that changes as a curve; `law` makes the law from more and its coordinates."""
     elastic = ranges.library["tissue_viscoelasticity"].parameters
     neutral = (0.0,) * len(elastic[0].start)
     own = (replace(p, start=neutral) for p in coordinates_of(curve))
@@ -81,20 +94,21 @@ def _elastic(
             name=f"elastic tissue over {over}",
             title=f"elastic tissue that changes {words}",
             place=Place.TISSUE,
-            parameters=(*elastic, *own),
+            parameters=(*elastic, *more, *own),
             apply=partial(_apply, law),
         ),
         places={Place.TISSUE: 1.0},
         says=says or SAYS.get(over, over),
         title="stiffness of the tissue",
-        curve=partial(_stiffness, curve),
+        curve=partial(_stiffness, curve, len(more)),
         x_unit=unit,
         unit="N mm / rad / mm",
     )
 
 
 def _law_over(variable: Variable, curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
-    return FreeLaw(stiffness_varies=True, curves=(curve.acting_on(ActsOn.TISSUE, variable, c),))
+    curves = (curve.acting_on(ActsOn.TISSUE, variable, c[1:]),)
+    return FreeLaw(stiffness_varies=True, viscosity_exponent=c[0], curves=curves)
 
 
 def _law_along_depth(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
@@ -109,6 +123,36 @@ def _law_over_twist(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
         factors=curve.factors(c),
     )
     return FreeLaw(contact=contact)
+
+
+def _flowing(ranges: LogRanges) -> Family:
+    """Tissue that flows, told by its torque over its twist."""
+    return Family(
+        effect=Effect(
+            name="tissue that flows",
+            title="elastic tissue that flows beyond a torque",
+            place=Place.TISSUE,
+            parameters=(*ranges.library["tissue_viscoelasticity"].parameters, _FLOWS_AT),
+            apply=_apply_flow,
+        ),
+        places={Place.TISSUE: 1.0},
+        says=Variable.TORQUE,
+        title="torque of the tissue",
+        curve=_torque_of_flow,
+        x_unit="deg",
+        unit="N mm / mm",
+    )
+
+
+def _torque_of_flow(stiffness: float, _: float, flows_at_deg: float) -> Points:
+    most = stiffness * np.radians(flows_at_deg)
+    return np.array([0.0, 1.0, 2.0]) * flows_at_deg, np.array([0.0, 1.0, 1.0]) * most
+
+
+def _apply_flow(
+    rig: RigParameters, stiffness: float, time_constant: float, flows_at_deg: float
+) -> RigParameters:
+    return _elastic_rig(rig, stiffness, time_constant, FreeLaw(flows_at_deg=flows_at_deg))
 
 
 def _slipping(ranges: LogRanges) -> tuple[Family, ...]:
@@ -160,8 +204,8 @@ def _apply_slip(most: float, rig: RigParameters, threshold: float, rate: float) 
     return replace(rig, free=FreeLaw(curves=(curve,)))
 
 
-def _stiffness(curve: SmoothCurve, stiffness: float, _: float, *c: float) -> Points:
-    return curve.places, stiffness * np.array(curve.factors(c))
+def _stiffness(curve: SmoothCurve, more: int, stiffness: float, _: float, *c: float) -> Points:
+    return curve.places, stiffness * np.array(curve.factors(c[more:]))
 
 
 def _apply(
@@ -171,9 +215,15 @@ def _apply(
     time_constant: float,
     *c: float,
 ) -> RigParameters:
+    return _elastic_rig(rig, stiffness, time_constant, law(c))
+
+
+def _elastic_rig(
+    rig: RigParameters, stiffness: float, time_constant: float, law: FreeLaw
+) -> RigParameters:
     return replace(
         rig,
         tissue_stiffness_n_mm_per_rad_per_mm=stiffness,
         tissue_time_constant_s=time_constant,
-        free=law(c),
+        free=law,
     )

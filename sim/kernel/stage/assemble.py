@@ -159,7 +159,7 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
         remember(after[at.slot, at.k], new, slip)
         stiffness = factor * weight * row[memory_map.L_STIFFNESS]
         stored += 0.5 * stiffness * new.phi * new.phi
-        recoverable += stiffness * new.phi * (rate - slip)
+        recoverable += stiffness * new.phi * (new.phi - old.phi) / g  # what flows is lost
         if curvature != 0.0 or wave != 0.0:
             sine, cosine = math.sin(angle), math.cos(angle)
             torque += curvature * sine + wave * cosine * rate
