@@ -55,6 +55,7 @@ class ActsOn(StrEnum):
     TIP_TORQUE = "tip_torque"
     DRIVE_TORQUE = "drive_torque"
     TIP_READING = "tip_reading"
+    TIP_COUNTS = "tip_counts"
     TORQUE_READING = "torque_reading"
     TIP_GAIN = "tip_gain"
     TORQUE_GAIN = "torque_gain"

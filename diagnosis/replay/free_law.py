@@ -59,8 +59,9 @@ _TORQUES = (
 _ADDED = ("curves", "throughout", "from_start", "sections", "at_tip", "at_entry", "in_sheath")
 _RECORDS = ("shaft", "grip")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
-_OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_GAIN)
+_OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_COUNTS, ActsOn.TIP_GAIN)
 _OF_TISSUE = (ActsOn.TISSUE_ANGLE, ActsOn.TISSUE_SLIP)  # whose turn the tip shows, too
+_RATES = (ActsOn.TISSUE_SLIP, ActsOn.TIP_COUNTS)  # of what a reading gains or loses in a trial
 _GAINS = (ActsOn.TIP_GAIN, ActsOn.TORQUE_GAIN)
 _SENSORS = (ActsOn.DRIVE_TORQUE, ActsOn.TORQUE_READING, *_OF_TIP, ActsOn.TORQUE_GAIN)
 
@@ -271,7 +272,7 @@ class FreeLaw:
                 more = on_needle(curve, inputs, start_s, torque_n_mm)
             else:
                 continue
-            if curve.acts_on is ActsOn.TISSUE_SLIP:
+            if curve.acts_on in _RATES:
                 more = cumulative_trapezoid(more, inputs.time_s, initial=0)
             read[of_tip] = read[of_tip] + more
         return read[True], read[False]

@@ -1,11 +1,15 @@
-"""A drive that falls behind its encoder, or an encoder that loses counts, where it turns fast.
+"""An encoder that loses counts where it turns fast, or a drive that falls behind its encoder there.
 
     rate of the needle at the chuck = rate that is read                      up to a rate, either way
                                       rate that is read (1 + share)          beyond it
 
+    rate that is read at the tip = rate of the tip                           up to a rate, either way
+                                   rate of the tip + share (its excess)      beyond it
+
 A smooth curve over the rate has no such jump.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -18,16 +22,60 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 from models import units
 
+Points = tuple[Sequence[float], Sequence[float]]
+
 _LEAST, _CORNER, _FAR = 0.03, 0.01, 2.0  # in the fastest rate
 _SHARE = 0.3
 _STARTS = tuple((level, share) for level in (0.2, 0.4, 0.6, 0.8) for share in (_SHARE, -_SHARE))
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """The law, if the base turns."""
-    if Variable.RATE not in ranges.ends:
-        return ()
-    fastest = max(abs(end) for end in ranges.ends[Variable.RATE])
+    """The law of the base, and that of the tip, if they turn."""
+    makes = {Variable.RATE: _of_base, Variable.TIP_RATE: _of_tip}
+    fastest = {v: max(abs(end) for end in ranges.ends[v]) for v in makes if v in ranges.ends}
+    return tuple(makes[variable](most) for variable, most in fastest.items())
+
+
+def _of_base(fastest: float) -> Family:
+    return Family(
+        effect=Effect(
+            name="drive slip over rate, beyond a level",
+            title="an encoder that loses counts where it turns fast",
+            place=Place.DRIVE,
+            parameters=_parameters(fastest),
+            apply=partial(_apply, fastest),
+            differences=(1e-1, 1e-2),
+        ),
+        places={Place.DRIVE: 0.5, Place.SENSOR: 0.5},
+        says=Variable.RATE,
+        title="rate at which the drive runs ahead of its encoder",
+        curve=partial(_ahead, fastest),
+        x_unit="rad/s",
+        unit="deg/s",
+    )
+
+
+def _of_tip(fastest: float) -> Family:
+    return Family(
+        effect=Effect(
+            name="tip counts over rate, beyond a level",
+            title="a counter of the tip's angle that loses counts where it turns fast",
+            place=Place.SENSOR,
+            parameters=_parameters(fastest),
+            apply=partial(_apply_to_tip, fastest),
+            differences=(1e-1, 1e-2),
+        ),
+        places={Place.SENSOR: 1.0},
+        says=Variable.RATE,
+        title="rate at which the tip sensor runs ahead of the tip",
+        curve=partial(_excess, fastest),
+        x_unit="rad/s",
+        unit="deg/s",
+    )
+
+
+def _parameters(fastest: float) -> tuple[Parameter, Parameter]:
+    """Rate beyond which counts are lost, and the share of them."""
     levels, shares = zip(*_STARTS, strict=True)
     level = Parameter(
         name="level",
@@ -38,47 +86,54 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
         logarithmic=True,
         neutral=None,
     )
-    share = Parameter(name="share", unit="-", low=-0.9, high=9.0, start=shares, scale=_SHARE)
-    return (
-        Family(
-            effect=Effect(
-                name="drive slip over rate, beyond a level",
-                title="an encoder that loses counts where it turns fast",
-                place=Place.DRIVE,
-                parameters=(level, share),
-                apply=partial(_apply, fastest),
-                differences=(1e-1, 1e-2),
-            ),
-            places={Place.DRIVE: 0.5, Place.SENSOR: 0.5},
-            says=Variable.RATE,
-            title="rate at which the drive runs ahead of its encoder",
-            curve=partial(_ahead, fastest),
-            x_unit="rad/s",
-            unit="deg/s",
-        ),
-    )
+    return level, Parameter(name="share", unit="-", low=-0.9, high=9.0, start=shares, scale=_SHARE)
 
 
-def _ahead(fastest: float, level: float, share: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def _ahead(fastest: float, level: float, share: float) -> Points:
     """By how much faster than its encoder the drive turns, deg/s, over the rate that is read."""
+    rates = _beyond(fastest, level)
+    return _either_way(rates, [0.0, *(share * rate for rate in rates[1:])])
+
+
+def _excess(fastest: float, level: float, share: float) -> Points:
+    """By how much faster than the tip its sensor turns, deg/s, over the rate of the tip."""
+    rates = _beyond(fastest, level)
+    return _either_way(rates, [share * (rate - level) for rate in rates])
+
+
+def _beyond(fastest: float, level: float) -> list[float]:
+    """Rates from a level on, between which a smooth curve is straight."""
     corner = _CORNER * fastest
-    up = (level, *(level + more for more in (corner, 2.0 * corner, fastest, _FAR * fastest)))
-    added = [0.0, *(share * rate / units.DEG for rate in up[1:])]
-    return tuple(-x for x in reversed(up)) + up, tuple(-y for y in reversed(added)) + tuple(added)
+    return [level, *(level + more for more in (corner, 2.0 * corner, fastest, _FAR * fastest))]
+
+
+def _either_way(rates: Sequence[float], more: Sequence[float]) -> Points:
+    """A curve in deg/s over rates of either sign."""
+    back = [-rate for rate in reversed(rates)], [-value / units.DEG for value in reversed(more)]
+    return (*back[0], *rates), (*back[1], *(value / units.DEG for value in more))
 
 
 def _apply(fastest: float, rig: RigParameters, level: float, share: float) -> RigParameters:
     return running_ahead(rig, *_ahead(fastest, level, share))
 
 
-def running_ahead(
-    rig: RigParameters, rates: tuple[float, ...], ahead: tuple[float, ...]
-) -> RigParameters:
+def _apply_to_tip(fastest: float, rig: RigParameters, level: float, share: float) -> RigParameters:
+    rates, ahead = _excess(fastest, level, share)
+    curve = Curve(
+        acts_on=ActsOn.TIP_COUNTS,
+        variable=Variable.TIP_RATE,
+        places=tuple(rates),
+        values=tuple(ahead),
+    )
+    return replace(rig, free=FreeLaw(curves=(curve,)))
+
+
+def running_ahead(rig: RigParameters, rates: Sequence[float], ahead: Sequence[float]) -> RigParameters:
     """The rig whose drive turns faster than its encoder, by so many deg/s at rates that are read."""
     curve = Curve(
         acts_on=ActsOn.DRIVE_SLIP,
         variable=Variable.RATE,
-        places=rates,
+        places=tuple(rates),
         values=tuple(-value for value in ahead),
     )
     return replace(rig, free=FreeLaw(curves=(curve,)))
