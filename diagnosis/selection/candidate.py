@@ -17,6 +17,7 @@ from diagnosis.criteria.selection import (
     SCATTER_CERTAIN_SIGMA,
     SCATTER_LEAST,
     SHIFT_LIMIT,
+    SIMPLE_LEAD,
 )
 from diagnosis.effects import FITTED, LIBRARY
 from diagnosis.fitting.fit import Fit
@@ -75,6 +76,11 @@ class Candidate:
     coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
     swinging_hz: Mapping[str, float] = field(default_factory=dict)
     shape_open: bool = False
+
+    @property
+    def lead_over_part(self) -> float:
+        """Score by which it has to lead a part of it that explains the log to be named in its place."""
+        return max(SIMPLE_LEAD, self.unresolved_law_cost)
 
     @property
     def explains(self) -> bool:

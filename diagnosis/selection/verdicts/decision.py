@@ -146,8 +146,7 @@ def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
     best = at_floor[0]
 
     def reach(one: Candidate) -> float:
-        part = {*one.names} < {*best.names}
-        return max(SIMPLE_LEAD, best.unresolved_law_cost if part else 0.0)
+        return best.lead_over_part if {*one.names} < {*best.names} else SIMPLE_LEAD
 
     near = [c for c in at_floor if c.score - best.score <= reach(c) and (says(c) or c is best)]
     fewest = min(near, key=lambda c: (len(c.named), c.score))

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 
-from diagnosis.criteria.selection import SIMPLE_LEAD
 from diagnosis.effects import LIBRARY
 from diagnosis.selection.candidate import Candidate
 
@@ -30,10 +29,10 @@ def ranking_of(
 def _probabilities(candidates: Sequence[Candidate], best: Candidate) -> dict[tuple[str, ...], float]:
     """Of sets of effects: exp(-score / 2), normalised; fits of one set add up.
 
-    The best with more beside it would have to lead by SIMPLE_LEAD to be named, which counts against it.
+    By what the best with more beside it would have to lead to be named counts against it.
     """
     weights = dict[tuple[str, ...], float]()
-    scores = [c.score + SIMPLE_LEAD * _has_more(c, best) for c in candidates]
+    scores = [c.score + c.lead_over_part * _has_more(c, best) for c in candidates]
     least = min(scores)
     for c, score in zip(candidates, scores, strict=True):
         named = tuple(sorted(c.named))

@@ -19,6 +19,7 @@ PLACES, VALUES = (0.0, 2.0, 3.0, 8.0), (1.0, 1.0, 4.0, 2.0)
 READ = (
     ActsOn.DRIVE_TORQUE,
     ActsOn.TIP_READING,
+    ActsOn.TIP_COUNTS,
     ActsOn.TORQUE_READING,
     ActsOn.TIP_GAIN,
     ActsOn.TORQUE_GAIN,

@@ -160,3 +160,4 @@ def test_a_part_is_named_where_no_more_leads_it_than_laws_leave_open(part, lead,
     best = scored(["entry_friction", "sheath_friction"], 100.0, unresolved_law_cost=50.0)
     found = verdict_on([best, scored(part, 100.0 + lead)])
     assert (found.kind, found.effects) == (VerdictKind.EXPLAINED, effects)
+    assert found.ranking[0][0] == effects
