@@ -16,7 +16,14 @@ EFFECT = Effect(
     place=Place.SENSOR,
     parameters=(
         Parameter(
-            name="scale", unit="-", low=0.1, high=10.0, start=(0.9, 1.1), logarithmic=True, neutral=1.0
+            name="scale",
+            unit="-",
+            low=0.1,
+            high=10.0,
+            start=(0.9, 1.1),
+            logarithmic=True,
+            neutral=1.0,
+            least_factor=0.003,  # as stiffness and damping, which are off alike
         ),
     ),
     apply=_apply,

@@ -106,6 +106,18 @@ def test_what_is_as_good_as_none_explains_nothing_but_leaves_open_what_it_leads(
     assert (alone.kind, alone.effects) == (VerdictKind.EXPLAINED, ("tip_drag",))
 
 
+@pytest.mark.parametrize(
+    ("scale", "effects"), [(0.998, ("damping_error",)), (0.99, ("damping_error", "torque_scale"))]
+)
+def test_a_torque_gain_is_named_beside_an_effect_from_where_stiffness_and_damping_are(scale, effects):
+    both = replace(
+        scored(["damping_error", "torque_scale"], 60.0),
+        fit=fit_of(("damping_error", "torque_scale"), x=[0.1, np.log(scale)]),
+    )
+    found = verdict_on([both, scored(["damping_error"], 100.0)])
+    assert (found.kind, found.effects) == (VerdictKind.EXPLAINED, effects)
+
+
 def test_what_is_held_by_a_bound_and_above_the_noise_leaves_nothing_open():
     above = NoiseFloor(gap=2.0, slow=5.0)
     far = replace(held(["base_compliance"], 1.0), floor=above)
