@@ -64,6 +64,13 @@ STAGES = {
     "screening exchanges": _coarse("screening other effects in place of one", 0.05, 0, 0),
     "exchanges": _coarse("fitting another effect in place of one", 0.5, 0, 0),
     "finalists, exchanges": _whole("fitting sets with one effect exchanged to the whole log", 1.0, 0, 0),
+    "screening exchanges in the best": _coarse(
+        "screening others in place of one of the best", 0.05, 0, 0
+    ),
+    "exchanges in the best": _coarse("fitting another in place of one of the best", 0.5, 0, 0),
+    "finalists, exchanges in the best": _whole(
+        "fitting the best with one effect exchanged to the whole log", 1.0, 0, 0
+    ),
     "screening imperfections beside three": _whole("screening imperfections beside three", 0.2, 0, 0),
     "imperfections beside three": _whole("fitting imperfections beside three", 1.0, 0, 0),
     "best to its end": _whole("completing the fit of the best", 4.0, 0, 1),

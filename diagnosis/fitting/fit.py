@@ -159,6 +159,18 @@ def fit_effects(
     return _fit(objective, names, x, replace(status, at_bound=_at_bound(parameterization, x)))
 
 
+def fit_left_at(problem: FitProblem, names: Sequence[str], x: Array) -> Fit:
+    """The "fit" of a set of effects that is left where it starts, with its slopes there.
+
+    Raises:
+      SimulationFailed: the rig cannot be simulated there, or near it.
+    """
+    objective = Objective(problem, problem.parameterization(names))
+    objective.jacobian(x, objective(x))
+    status = FitStatus(termination=Termination.NOTHING_TO_FIT, message="left where it starts")
+    return _fit(objective, names, x, status)
+
+
 def completed(problem: FitProblem, fit: Fit) -> Fit:
     """A fit that was given up, taken on to its end; any other as it is.
 

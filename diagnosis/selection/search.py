@@ -24,7 +24,7 @@ from diagnosis.selection.stages.best import (
     scatter_of_the_best,
 )
 from diagnosis.selection.stages.dragged_tissue import tissue_that_goes_along
-from diagnosis.selection.stages.exchange import exchanges
+from diagnosis.selection.stages.exchange import exchanges, exchanges_in_the_best
 from diagnosis.selection.stages.late_sensors import imperfections_in_place
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
@@ -84,6 +84,7 @@ STAGES: tuple[Stage, ...] = (
     richer_effects_in_place_of_three,
     exchanges,
     imperfections_beside_three,
+    exchanges_in_the_best,
     best_to_its_end,
     noise_of_the_best,
     imperfections_in_place,

@@ -42,6 +42,7 @@ def test_the_stages_are_these_in_this_order():
         "richer_effects_in_place_of_three",
         "exchanges",
         "imperfections_beside_three",
+        "exchanges_in_the_best",
         "best_to_its_end",
         "noise_of_the_best",
         "imperfections_in_place",

@@ -11,7 +11,13 @@ from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import dropped
-from diagnosis.selection.stages.exchange import STAGE, exchanges
+from diagnosis.selection.stages.exchange import (
+    IN_THE_BEST,
+    STAGE,
+    exchanges,
+    exchanges_in_the_best,
+)
+from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
 EFFECTS = ("coulomb_friction", "entry_friction", "base_compliance", "tip_drag", "stiction")
@@ -102,3 +108,34 @@ def test_a_set_that_is_right_is_left_as_it_is():
     early = fit_near(state.problem, PAIR, 2.5e-3, 18.0, most_iterations=1)
     state = replace(state, candidates=(candidate(early),))
     assert {*exchanges(state, Workers()).best.names} == {*PAIR}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("true", [TRUE, {*PAIR}])
+def test_what_does_better_than_a_set_that_explains_the_log_is_found(true):
+    """Friction at the entry is so weak that friction along the shaft imitates it to the noise."""
+    weak = {"entry_friction_n_mm": 0.006} if true == TRUE else {"kinetic_n_mm_per_mm": 2e-4}
+    rig = RigParameters(base_stiffness_n_mm_per_rad=20.0, **weak)
+    log = joined(*(log_of(rig, seed=i) for i in range(2)))
+    state = start_of_search(log, effects=EFFECTS)
+    state = replace(state, candidates=(candidate(fit_near(state.problem, PAIR, 2e-4, 20.0)),))
+    state, explained = state.rechecked()
+    assert explained
+    found = exchanges_in_the_best(state, Workers())
+    assert {*found.best.names} == true
+    stages = {entry.stage for entry in found.record[len(state.record) :]}
+    assert stages <= {IN_THE_BEST, f"finalists, {IN_THE_BEST}"}
+
+
+@pytest.mark.parametrize(
+    ("names", "explained", "asks"),
+    [(PAIR, True, True), (PAIR, False, False), (("coulomb_friction",), True, False)],
+)
+def test_another_effect_is_asked_for_in_a_set_that_explains_the_log(
+    names, explained, asks, still_start, monkeypatch
+):
+    monkeypatch.setattr(SearchState, "at_the_floor", lambda *_: True)
+    state = replace(still_start, effects=EFFECTS, candidates=(scored(names, 1.0),))
+    asked = sets_screened(exchanges_in_the_best, state, monkeypatch, explained=explained)
+    assert bool(asked) is asks
+    assert all(len(names) == len(PAIR) and {*names} != {*PAIR} for names in asked)
