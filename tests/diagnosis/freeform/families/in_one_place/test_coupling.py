@@ -12,9 +12,12 @@ from diagnosis.effects import LIBRARY
 from diagnosis.freeform.families.in_one_place.coupling import families
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.replay.variables import Variable
 
 ANGLE, MOST_N_MM = turns(6.0), 1.0
-(FAMILY,) = families(SimpleNamespace(ends={"torque": (-0.7 * MOST_N_MM, MOST_N_MM)}))
+ENDS = {Variable.TORQUE: (-0.7 * MOST_N_MM, MOST_N_MM), Variable.TIME: (0.0, 6.0)}
+FAMILY, IN_TIME = families(SimpleNamespace(ends=ENDS, library=LIBRARY))
+FLAT = [0.0] * (len(IN_TIME.effect.parameters) - 1)
 
 
 def test_a_log_without_a_torque_has_no_coupling():
@@ -32,8 +35,30 @@ def test_its_spring_is_linear_and_cubic(angle_deg, torque_n_mm):
 
 def test_one_that_hardly_hardens_is_the_spring_of_the_library():
     """Half of the torque at which it is twice as stiff, 50 N mm, over 1000 deg."""
-    soft = LIBRARY["base_compliance"].apply(NOMINAL, 50.0 / np.radians(1000.0))
-    hardening = FAMILY.effect.apply(NOMINAL, 1000.0, 100.0)
+    assert_same_spring(50.0 / np.radians(1000.0), FAMILY.effect.apply(NOMINAL, 1000.0, 100.0))
+
+
+@pytest.mark.parametrize("factor", [1.0, 2.0])
+def test_one_that_does_not_change_is_the_spring_of_the_library(factor):
+    values = (3.0 / factor, np.log(factor), *FLAT[1:])
+    assert_same_spring(3.0, IN_TIME.effect.apply(NOMINAL, *values))
+    _, stiffness = IN_TIME.curve(*values)
+    np.testing.assert_allclose(stiffness, 3.0)
+
+
+def test_one_that_softens_gives_way_further_at_the_end():
+    softens = IN_TIME.effect.apply(NOMINAL, 3.0, 0.0, -0.8, *FLAT[2:])
+    _, stiffness = IN_TIME.curve(3.0, 0.0, -0.8, *FLAT[2:])
+    assert (np.diff(stiffness) < 0).all()
+    (curve,) = softens.free.curves
+    assert curve.factor.values[-1] / curve.factor.values[0] == pytest.approx(
+        stiffness[0] / stiffness[-1]
+    )
+
+
+def assert_same_spring(stiffness, rig):
+    """The spring of the library, in N mm / rad, and a coupling read the same."""
+    soft, hardening = LIBRARY["base_compliance"].apply(NOMINAL, stiffness), rig
     one = prepared(trial(ANGLE))
     (expected,) = predict(RIG, one, [soft])
     read = {"base_torque_n_mm": expected.base_torque_n_mm, "tip_angle_deg": expected.tip_angle_deg}
@@ -47,4 +72,4 @@ def test_one_that_hardly_hardens_is_the_spring_of_the_library():
 
 
 def test_what_it_depends_on_has_a_word():
-    assert FAMILY.says in VOCABULARY
+    assert {FAMILY.says, IN_TIME.says} <= set(VOCABULARY)
