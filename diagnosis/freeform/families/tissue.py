@@ -1,9 +1,7 @@
 """Free laws of the tissue: elastic (Kelvin-Voigt), with a stiffness that is a curve of a variable.
 
 Its viscosity goes along with the stiffness by a power that is fitted. The stiffness may also be a curve
-of the twist of the tissue: it hardens or softens. Or the tissue flows beyond a torque that it bears at
-most, and does not turn back by what has flowed. Or a block of tissue slips on its support beyond a
-torque T0, and takes the needle with it: it turns at a rate that grows straight with |T| - T0.
+of the twist of the tissue: it hardens or softens.
 """
 
 from collections.abc import Callable, Sequence
@@ -19,7 +17,7 @@ from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.curve import ActsOn
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
@@ -29,18 +27,6 @@ Array = NDArray[np.float64]
 
 OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.DEPTH, Variable.HISTORY)
 _FOLLOWS = Parameter(name="follows", unit="-", low=0.0, high=1.0, start=(0.5,) * 4, neutral=None)
-_FLOWS_AT = Parameter(
-    name="flows_at",
-    unit="deg",
-    low=0.5,
-    high=720.0,
-    start=(20.0, 60.0, 20.0, 60.0),
-    logarithmic=True,
-    neutral=None,
-)
-_BEYOND = 1.2  # times the largest torque, at which the rate of a block that slips is told
-_THRESHOLDS = (0.3, 0.6, 0.3, 0.6)  # of that torque, to start with
-_SLIP_DEG_S = (3.0, 3.0, 30.0, 30.0)
 _EVEN_DEG, _MOST_DEG = 3.0, 45.0  # twist below which places are even, and beyond which none is
 
 
@@ -48,7 +34,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that the tissue may lack."""
     over = (_elastic_over(v, ranges) for v in OVER if v in ranges.ends)
     hardening = (_elastic_over_twist(ranges),) if Variable.BASE_ANGLE in ranges.ends else ()
-    return (*over, _elastic_along_depth(ranges), *hardening, _flowing(ranges), *_slipping(ranges))
+    return (*over, _elastic_along_depth(ranges), *hardening)
 
 
 def _elastic_over(variable: Variable, ranges: LogRanges) -> Family:
@@ -125,85 +111,6 @@ def _law_over_twist(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
     return FreeLaw(contact=contact)
 
 
-def _flowing(ranges: LogRanges) -> Family:
-    """Tissue that flows, told by its torque over its twist."""
-    return Family(
-        effect=Effect(
-            name="tissue that flows",
-            title="elastic tissue that flows beyond a torque",
-            place=Place.TISSUE,
-            parameters=(*ranges.library["tissue_viscoelasticity"].parameters, _FLOWS_AT),
-            apply=_apply_flow,
-        ),
-        places={Place.TISSUE: 1.0},
-        says=Variable.TORQUE,
-        title="torque of the tissue",
-        curve=_torque_of_flow,
-        x_unit="deg",
-        unit="N mm / mm",
-    )
-
-
-def _torque_of_flow(stiffness: float, _: float, flows_at_deg: float) -> Points:
-    most = stiffness * np.radians(flows_at_deg)
-    return np.array([0.0, 1.0, 2.0]) * flows_at_deg, np.array([0.0, 1.0, 1.0]) * most
-
-
-def _apply_flow(
-    rig: RigParameters, stiffness: float, time_constant: float, flows_at_deg: float
-) -> RigParameters:
-    return _elastic_rig(rig, stiffness, time_constant, FreeLaw(flows_at_deg=flows_at_deg))
-
-
-def _slipping(ranges: LogRanges) -> tuple[Family, ...]:
-    """A block that slips on its support, if there is a torque."""
-    if Variable.TORQUE not in ranges.ends:
-        return ()
-    most = _BEYOND * max(abs(end) for end in ranges.ends[Variable.TORQUE])
-    threshold = Parameter(
-        name="threshold",
-        unit="N mm",
-        low=1e-3 * most,
-        high=0.99 * most,
-        start=tuple(share * most for share in _THRESHOLDS),
-        logarithmic=True,
-        neutral=None,
-    )
-    rate = Parameter(name="rate", unit="deg/s", low=0.0, high=500.0, start=_SLIP_DEG_S, scale=5.0)
-    family = Family(
-        effect=Effect(
-            name="tissue slip over torque",
-            title="tissue that slips on its support, and takes the needle with it",
-            place=Place.TISSUE,
-            parameters=(threshold, rate),
-            apply=partial(_apply_slip, most),
-            differences=(1e-1, 1e-2),
-        ),
-        places={Place.TISSUE: 1.0},
-        says=Variable.TORQUE,
-        title="rate at which the tissue turns",
-        curve=partial(_slip, most),
-        x_unit=UNITS[Variable.TORQUE],
-        unit="deg/s",
-    )
-    return (family,)
-
-
-def _slip(most: float, threshold: float, rate: float) -> tuple[Array, Array]:
-    """Torques, in N mm, and rates, in deg/s: of the largest torque, the parameter."""
-    torque = np.linspace(threshold, most, 4)
-    one_way = rate * np.linspace(0.0, 1.0, 4)
-    return np.append(-torque[::-1], torque), np.append(-one_way[::-1], one_way)
-
-
-def _apply_slip(most: float, rig: RigParameters, threshold: float, rate: float) -> RigParameters:
-    places, values = _slip(most, threshold, rate)
-    curve = Curve(
-        acts_on=ActsOn.TISSUE_SLIP, variable=Variable.TORQUE, places=tuple(places), values=tuple(values)
-    )
-    return replace(rig, free=FreeLaw(curves=(curve,)))
-
-
 def _stiffness(curve: SmoothCurve, more: int, stiffness: float, _: float, *c: float) -> Points:
     return curve.places, stiffness * np.array(curve.factors(c[more:]))
 
@@ -215,15 +122,9 @@ def _apply(
     time_constant: float,
     *c: float,
 ) -> RigParameters:
-    return _elastic_rig(rig, stiffness, time_constant, law(c))
-
-
-def _elastic_rig(
-    rig: RigParameters, stiffness: float, time_constant: float, law: FreeLaw
-) -> RigParameters:
     return replace(
         rig,
         tissue_stiffness_n_mm_per_rad_per_mm=stiffness,
         tissue_time_constant_s=time_constant,
-        free=law,
+        free=law(c),
     )
