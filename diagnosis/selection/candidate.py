@@ -98,6 +98,11 @@ class Candidate:
         values = bool(self.reached_bounds) + bool(self.as_good_as_none)
         return values == len(list(self._objections())) > 0
 
+    @property
+    def refused_as_none(self) -> bool:
+        """Whether it would explain the log, but for parameters that are as good as none."""
+        return bool(self.as_good_as_none) and len(list(self._objections())) == 1
+
     def _objections(self) -> Iterator[str]:
         floor = self.floor
         if not floor.small:

@@ -35,10 +35,12 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     """The verdict on candidates, best first.
 
     One whose parameters are at a bound, or as good as none, explains nothing; but where it leads what
-    does, that is open. And so it is where a part of it is likelier, but above the floor; or is hardly
-    less likely, and shifts from trial to trial or is above the floor by a hair, or samples are means.
+    does, that is open. (Where nothing does, one that is as good as none has nothing to imitate.) And so
+    it is where a part of it is likelier, but above the floor; or is hardly less likely, and shifts from
+    trial to trial or is above the floor by a hair, or samples are means.
     """
     at_floor = _without_needless_scatter(_explaining(candidates))
+    at_floor = at_floor or [c for c in candidates if c.refused_as_none]
     if not at_floor:
         return Verdict(
             kind=VerdictKind.UNKNOWN,

@@ -1,6 +1,5 @@
 """Free laws of the tissue: where they are constant, they are elastic tissue of the library."""
 
-
 import numpy as np
 import pytest
 from diagnosis_fixtures import turns

@@ -90,6 +90,9 @@ def test_what_is_held_by_a_bound_beside_the_best_leaves_it_open_if_it_leads_clea
     assert (found.kind, found.effects) == (kind, ("stiffness_error",))
 
 
+ABOVE = NoiseFloor(gap=2.0, slow=5.0)
+
+
 def test_what_is_as_good_as_none_explains_nothing_but_leaves_open_what_it_leads():
     """Shear thinning of an exponent of 0.995, which dry friction replaces less well."""
     x = [0.995, 0.0]
@@ -98,6 +101,8 @@ def test_what_is_as_good_as_none_explains_nothing_but_leaves_open_what_it_leads(
     found = verdict_on([weak, scored(["coulomb_friction"], 100.0)])
     assert (found.kind, found.effects) == (VerdictKind.UNDECIDED, ("coulomb_friction",))
     assert ("shear_thinning",) in found.confusable
+    only = verdict_on([weak, replace(scored(["coulomb_friction"], 100.0), floor=ABOVE)])
+    assert (only.kind, only.effects) == (VerdictKind.EXPLAINED, ("shear_thinning",))
     beside = replace(
         scored(["tip_drag", "shear_thinning"], 60.0),
         fit=fit_of(("tip_drag", "shear_thinning"), x=[-3.0, *x]),
@@ -119,8 +124,7 @@ def test_a_torque_gain_is_named_beside_an_effect_from_where_stiffness_and_dampin
 
 
 def test_what_is_held_by_a_bound_and_above_the_noise_leaves_nothing_open():
-    above = NoiseFloor(gap=2.0, slow=5.0)
-    far = replace(held(["base_compliance"], 1.0), floor=above)
+    far = replace(held(["base_compliance"], 1.0), floor=ABOVE)
     assert verdict_on([far, scored(["stiffness_error"], 100.0)]).kind is VerdictKind.EXPLAINED
     assert verdict_on([held(["base_compliance"], 1.0)]).kind is VerdictKind.UNKNOWN
 
