@@ -159,6 +159,7 @@ ADDED = {
     ActsOn.INSERTED_LENGTH,
     ActsOn.DRIVE_TORQUE,
     ActsOn.TIP_READING,
+    ActsOn.TIP_COUNTS,
     ActsOn.TORQUE_READING,
 }
 

@@ -91,11 +91,12 @@ def test_what_the_curve_does_not_depend_on_stays_a_parameter():
     values = started(family)
     law, line = line_near(family, values)
     plain = plain_family(family, values, law, Recognised(shape=LINE, values=line))
-    *_, time_constant = plain.effect.parameters
-    assert [p.name for p in plain.effect.parameters] == ["shape 0", "shape 1", "time_constant"]
-    assert time_constant.start == (values[1],)
-    rig = plain.effect.apply(RigParameters(), *line, 0.7)
-    assert rig.tissue_time_constant_s == 0.7
+    *_, time_constant, follows = plain.effect.parameters
+    names = ["shape 0", "shape 1", "time_constant", "follows"]
+    assert [p.name for p in plain.effect.parameters] == names
+    assert (time_constant.start, follows.start) == ((values[1],), (values[2],))
+    rig = plain.effect.apply(RigParameters(), *line, 0.7, 0.2)
+    assert (rig.tissue_time_constant_s, rig.free.viscosity_exponent) == (0.7, 0.2)
 
 
 def test_parameters_are_in_units_of_the_range_of_the_curve():
