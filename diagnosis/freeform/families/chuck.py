@@ -2,7 +2,7 @@
 
 - it slips; or the tissue does so in its holder, and takes the needle with it
 - it slips between stops, and a spring brings it back: play that rubs, a coupling that is soft, then
-  stiff, one with hysteresis
+  stiff, one with hysteresis; or the tissue does, a block that is loose in its holder
 
 The torque at which it first gives way is looked for below the largest that the nominal rig asks for.
 """
@@ -35,7 +35,8 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if Variable.TORQUE not in ranges.ends:
         return ()
     most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
-    return _grip(most_n_mm), _holder(most_n_mm), _coupling(most_n_mm)
+    coupling = _coupling(most_n_mm)
+    return _grip(most_n_mm), _holder(most_n_mm), coupling, _loose_holder(coupling)
 
 
 def _torque(most_n_mm: float, least: float, starts: Sequence[float]) -> Parameter:
@@ -127,6 +128,34 @@ def _coupling(most_n_mm: float) -> Family:
         x_unit="deg",
         unit="N mm",
     )
+
+
+def _loose_holder(coupling: Family) -> Family:
+    """The same of the tissue."""
+    return replace(
+        coupling,
+        effect=replace(
+            coupling.effect,
+            name="slip of the tissue between stops over torque",
+            title="tissue that is loose in its holder, between stops, with friction and a spring",
+            place=Place.TISSUE,
+            apply=_apply_loose_holder,
+        ),
+        places={Place.TISSUE: 1.0},
+        title="torque that turns the tissue in its holder, from the middle to a stop",
+    )
+
+
+def _apply_loose_holder(
+    rig: RigParameters, torque: float, play_deg: float, stiffness: float
+) -> RigParameters:
+    grip = FreeGrip(
+        torque_n_mm=torque,
+        play_deg=play_deg,
+        stiffness_n_mm_per_rad=stiffness,
+        of_tissue=True,
+    )
+    return replace(rig, free=FreeLaw(grip=grip))
 
 
 def _taken(torque: float, play_deg: float, stiffness: float) -> Points:

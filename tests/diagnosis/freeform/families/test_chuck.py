@@ -14,7 +14,8 @@ from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE, MOST_N_MM = turns(6.0), 1.0
-GRIP, HOLDER, COUPLING = families(SimpleNamespace(ends={"torque": (-0.7 * MOST_N_MM, MOST_N_MM)}))
+ENDS = {"torque": (-0.7 * MOST_N_MM, MOST_N_MM)}
+GRIP, HOLDER, COUPLING, LOOSE = families(SimpleNamespace(ends=ENDS))
 
 
 def test_a_log_without_a_torque_has_no_chuck():
@@ -36,6 +37,24 @@ def test_tissue_that_slips_in_its_holder_reads_the_torque_of_a_chuck_that_slips_
     assert abs(chuck.tip_angle_deg[-1] - angle[-1]) > 5.0
     assert same_readings(ANGLE, HOLDER.effect.apply(NOMINAL, 100.0), NOMINAL)
     assert (HOLDER.place, HOLDER.says) == (Place.TISSUE, "torque")
+
+
+@pytest.mark.parametrize(("values", "holder"), [((0.3, 3600.0, 0.0), 0.3), ((100.0, 20.0, 0.0), 100.0)])
+def test_tissue_without_stops_and_spring_slips_in_its_holder_at_its_torque(values, holder):
+    loose, slips = LOOSE.effect.apply(NOMINAL, *values), HOLDER.effect.apply(NOMINAL, holder)
+    assert same_readings(ANGLE, loose, slips)
+    assert (LOOSE.place, LOOSE.says) == (Place.TISSUE, "torque")
+
+
+def test_tissue_that_is_loose_turns_the_tip_between_its_stops():
+    """Without friction and spring: the torque is that of play in the chuck, and the tip goes along."""
+    chuck, tissue = predict(
+        RIG,
+        prepared(trial(ANGLE)),
+        [f.effect.apply(NOMINAL, 1e-7, 10.0, 0.0) for f in (COUPLING, LOOSE)],
+    )
+    np.testing.assert_array_equal(tissue.base_torque_n_mm, chuck.base_torque_n_mm)
+    assert np.abs(tissue.tip_angle_deg - chuck.tip_angle_deg).max() == pytest.approx(5.0, abs=0.1)
 
 
 def test_the_torque_is_looked_for_below_the_largest():
