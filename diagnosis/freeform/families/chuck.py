@@ -8,7 +8,7 @@ The torque at which it first gives way is looked for below the largest that the 
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
@@ -35,8 +35,8 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if Variable.TORQUE not in ranges.ends:
         return ()
     most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
-    coupling = _coupling(most_n_mm)
-    return _grip(most_n_mm), _holder(most_n_mm), coupling, _loose_holder(coupling)
+    grip, coupling = _grip(most_n_mm), _coupling(most_n_mm)
+    return grip, _holder(grip), coupling, _loose_holder(coupling)
 
 
 def _torque(most_n_mm: float, least: float, starts: Sequence[float]) -> Parameter:
@@ -70,20 +70,21 @@ def _grip(most_n_mm: float) -> Family:
     )
 
 
-def _holder(most_n_mm: float) -> Family:
-    """The same of the tissue."""
-    grip = _grip(most_n_mm)
-    return replace(
+def _of_tissue(
+    chuck: Family, *, name: str, title: str, told: str, apply: Callable[..., RigParameters]
+) -> Family:
+    """The law of a chuck as one of the tissue in its holder."""
+    effect = replace(chuck.effect, name=name, title=title, place=Place.TISSUE, apply=apply)
+    return replace(chuck, effect=effect, places={Place.TISSUE: 1.0}, title=told)
+
+
+def _holder(grip: Family) -> Family:
+    return _of_tissue(
         grip,
-        effect=replace(
-            grip.effect,
-            name="slip of the tissue over torque",
-            title="tissue that slips in its holder beyond a torque",
-            place=Place.TISSUE,
-            apply=_apply_holder,
-        ),
-        places={Place.TISSUE: 1.0},
-        title="torque at which the tissue turns in its holder",
+        name="slip of the tissue over torque",
+        title="tissue that slips in its holder beyond a torque",
+        told="torque at which the tissue turns in its holder",
+        apply=_apply_holder,
     )
 
 
@@ -131,18 +132,12 @@ def _coupling(most_n_mm: float) -> Family:
 
 
 def _loose_holder(coupling: Family) -> Family:
-    """The same of the tissue."""
-    return replace(
+    return _of_tissue(
         coupling,
-        effect=replace(
-            coupling.effect,
-            name="slip of the tissue between stops over torque",
-            title="tissue that is loose in its holder, between stops, with friction and a spring",
-            place=Place.TISSUE,
-            apply=_apply_loose_holder,
-        ),
-        places={Place.TISSUE: 1.0},
-        title="torque that turns the tissue in its holder, from the middle to a stop",
+        name="slip of the tissue between stops over torque",
+        title="tissue that is loose in its holder, between stops, with friction and a spring",
+        told="torque that turns the tissue in its holder, from the middle to a stop",
+        apply=_apply_loose_holder,
     )
 
 
