@@ -1,6 +1,7 @@
 """`needle blind`: how often is the diagnosis right on rigs that it has never seen?"""
 
 import json
+import math
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -187,10 +188,10 @@ def _calibration(scores: pd.DataFrame) -> Table:
         f"calibration error of the probabilities (by chance, if all were right: {chance:.3f})",
         f"{calibration.calibration_error(scores):.3f}",
     )
-    table.add_row(f"95 % intervals that contain the true value (of {count})", f"{100 * share:.1f} %")
+    table.add_row(f"95 % intervals that contain the true value (of {count})", _percent(share))
     table.add_row(
         f"exact diagnoses with a residual of at most {calibration.GAP_GOAL} σ",
-        f"{100 * calibration.gap_left(scores):.1f} %",
+        _percent(calibration.gap_left(scores)),
     )
     below, unseen = calibration.undetected_within_limit(scores)
     if unseen:
@@ -211,5 +212,10 @@ def _missing(scores: pd.DataFrame) -> Table:
     table = Table("what is missing", "reports", "share", title="Outside of the library")
     for name, row in rows.items():
         some, of = counted[name]
-        table.add_row(row, f"{some} of {of}", f"{100 * some / of:.1f} %" if of else "–")
+        table.add_row(row, f"{some} of {of}", _percent(some / of if of else math.nan))
     return table
+
+
+def _percent(share: float) -> str:
+    """A share in words; NaN: of none."""
+    return "–" if math.isnan(share) else f"{100 * share:.1f} %"

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 from rich.console import Console
 
-from scripts.blind import _missing
+from scripts.blind import _missing, _percent
 from scripts.tables import print_table
 from validation.score.missing import CLOSED, missing_scores, missing_summary
 
@@ -91,3 +91,8 @@ def test_the_table_fits_a_narrow_screen(scores, width, capsys):
     words = " ".join(printed.split())
     for part in ("2 of 3", "1 of 2", "50.0 %", "100.0 %", "66.7 %"):
         assert part in words
+
+
+@pytest.mark.parametrize(("share", "shown"), [(0.9731, "97.3 %"), (0.0, "0.0 %"), (math.nan, "–")])
+def test_a_share_of_none_is_no_number(share, shown):
+    assert _percent(share) == shown
