@@ -139,8 +139,8 @@ UNRESOLVED_SHARE = 1e-4
 """Share of a reading that no model of a needle resolves. Measured: independent solvers of the contract
 differ by 1e-5 to 2e-4 of the torque; a choice for rigs, which are no better."""
 LAW_UNRESOLVED_SHARE = 2e-3
-"""The same of what effects change. Physical: dry friction holds up to a presliding angle of about 0.1
-deg, of twists of 50 deg and more. Measured: 0.0013 in one log, which friction elsewhere took up."""
+"""The same of what effects change. A choice, set on one log in which friction elsewhere took up 0.0013.
+Physical: dry friction holds up to a presliding angle of about 0.1 deg, of twists of 50 deg and more."""
 LAG_LITTLE = 1.0
 """Sigma of a reading, root mean square of its change, below which a filter of a sensor beside effects
 does little: whether it is a filter or a delay is then no second cause, and does not make the effects

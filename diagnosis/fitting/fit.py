@@ -8,7 +8,7 @@ by MuJoCo's own box-bounded Gauss-Newton; the columns of one Jacobian run as a b
 """
 
 import io
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -169,6 +169,20 @@ def fit_left_at(problem: FitProblem, names: Sequence[str], x: Array) -> Fit:
     objective.jacobian(x, objective(x))
     status = FitStatus(termination=Termination.NOTHING_TO_FIT, message="left where it starts")
     return _fit(objective, names, x, status)
+
+
+def change_without(problem: FitProblem, fit: Fit, effects: Collection[str]) -> float:
+    """Sum of squares / sigma^2 of what some effects of a fit add to its others.
+
+    Raises:
+      SimulationFailed: the rig without them cannot be simulated.
+    """
+    names = [name for name in fit.names if name not in effects]
+    nuisance = [own for own in fit.parameterization.nuisance if own.name not in effects]
+    without = parameterization_of(names, nuisance, problem.library)
+    kept = {own.name: fit.parts[own.name] for own in fit.parameterization.all if own.name not in effects}
+    each = zip(problem.residuals([without.rig(without.joined(kept))]), fit.by_trial, strict=True)
+    return float(sum(np.sum((run[0] - left) ** 2) for run, left in each))
 
 
 def completed(problem: FitProblem, fit: Fit) -> Fit:

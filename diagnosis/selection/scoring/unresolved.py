@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria.selection import CONTENDING, LAW_UNRESOLVED_SHARE, UNRESOLVED_SHARE
-from diagnosis.fitting.fit import Fit
-from diagnosis.fitting.parameterization import parameterization_of
+from diagnosis.fitting.fit import Fit, change_without
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS, TIP
 from diagnosis.prepare.prepared_log import PreparedTrial
@@ -42,11 +41,7 @@ def unresolved_law_cost(problem: FitProblem, fit: Fit) -> float:
     Raises:
       SimulationFailed: the rig without the effects of the fit cannot be simulated.
     """
-    nuisance = fit.parameterization.nuisance
-    without = parameterization_of((), nuisance, problem.library)
-    rig = without.rig(without.joined({own.name: fit.parts[own.name] for own in nuisance}))
-    each = zip(problem.residuals([rig]), fit.by_trial, strict=True)
-    return LAW_UNRESOLVED_SHARE**2 * float(sum(np.sum((run[0] - left) ** 2) for run, left in each))
+    return LAW_UNRESOLVED_SHARE**2 * change_without(problem, fit, fit.names)
 
 
 def contending(problem: FitProblem) -> float:
