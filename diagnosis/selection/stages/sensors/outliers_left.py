@@ -37,15 +37,21 @@ class _Readings:
 
     Attributes:
       time_s: (N,).
-      left: residuals / sigma, not whitened, (N,).
       off: mask of outliers, (N,).
+      squares: what each reading adds to the cost, whitened, (N,).
     """
 
     trial: str
     sensor: str
     time_s: Array
-    left: Array
     off: Mask
+    squares: Array
+
+    @property
+    def cost_of_outliers(self) -> float:
+        """What they add to the cost; where noise is coloured, also by the reading after each of them."""
+        after = np.append(False, self.off[:-1])
+        return float(np.sum(self.squares[self.off | after]))
 
 
 def outliers_beside_the_best(state: SearchState, workers: Workers) -> SearchState:
@@ -97,21 +103,27 @@ def _without_outliers(state: SearchState, workers: Workers) -> SearchState | Non
 def _found(problem: FitProblem, fit: Fit) -> list[_Readings]:
     """The readings beside a fit, in the order of its residuals."""
     plain = in_units_of(problem, fit.by_trial, problem.noise.uncoloured)
-    each = zip(problem.log.trials, by_trial_and_sensor(problem, plain), strict=True)
+    each = zip(
+        problem.log.trials,
+        by_trial_and_sensor(problem, plain),
+        by_trial_and_sensor(problem, fit.by_trial),
+        strict=True,
+    )
     return [
-        _Readings(trial=trial.name, sensor=sensor, time_s=time_s, left=left, off=outlying(left))
-        for trial, parts in each
-        for sensor, time_s, left in parts
+        _Readings(
+            trial=trial.name, sensor=sensor, time_s=time_s, off=outlying(left), squares=whitened**2
+        )
+        for trial, parts, white in each
+        for (sensor, time_s, left), (_, _, whitened) in zip(parts, white, strict=True)
     ]
 
 
 def _are_worth_a_fit(state: SearchState, found: Sequence[_Readings]) -> bool:
     """Whether outliers are few, and a good part of what is left beyond noise."""
     fit = state.best.fit
-    squares = sum(float(np.sum(one.left[one.off] ** 2)) for one in found)
-    return all(few(one.off) for one in found) and squares > OUTLIER_LEFT_SHARE * max(
-        fit.cost - fit.prior - fit.samples, 0.0
-    )
+    beyond_noise = max(fit.cost - fit.prior - fit.samples, 0.0)
+    taken_off = sum(one.cost_of_outliers for one in found)
+    return all(few(one.off) for one in found) and taken_off > OUTLIER_LEFT_SHARE * beyond_noise
 
 
 def _without(state: SearchState, found: Sequence[_Readings]) -> SearchState:

@@ -1,11 +1,13 @@
 """Readings far off the best explanation are left out, where only that explains a log."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 from diagnosis_fixtures import log_of, start_of_search
 
 from diagnosis.log.trial import Trial
+from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages.nominal_rig import nominal_rig
@@ -61,6 +63,22 @@ def test_what_an_effect_leaves_is_no_outlier():
     before, after = searched(log_of(RigParameters(kinetic_n_mm_per_mm=0.001), seconds=12.0))
     assert not before.best.floor.reached
     assert after.left_out == ()
+
+
+def test_waves_of_slow_noise_are_worth_no_fit_if_little_is_left_without_them():
+    """They stick out by 8 sigma, of which a reading tells most of the next; the tip is off by 1.2."""
+    share = 0.97
+    sigma = 0.01 / math.sqrt(1.0 - share)
+    log = off(log_of(NOMINAL, seconds=24.0), slice(None), 30.0, column=TIP)
+    for start in range(100, 1150, 150):
+        log = off(log, range(start, start + 9), 8.0 * np.hanning(11)[1:-1], sigma=sigma)
+    state = nominal_rig(start_of_search(log, effects=()), Workers())
+    noise, slow = state.problem.noise, NoiseColour.of(share=share, correlation_time_s=0.1)
+    noise = replace(noise, sigma={**noise.sigma, TORQUE: sigma}, colour={TORQUE: slow})
+    before = state.renoised(noise)
+    assert decisions(outliers_beside_the_best(before, Workers())) == []
+    white = replace(noise, colour={})
+    assert decisions(outliers_beside_the_best(state.renoised(white), Workers())) == [Decision.DROPPED]
 
 
 def test_outliers_that_do_not_explain_the_log_stay_in_it():
