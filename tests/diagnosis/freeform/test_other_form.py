@@ -122,10 +122,11 @@ def test_a_power_law_stands_where_it_is_one():
     assert form_of(*fitted(RigParameters(rate_exponent=0.6), ("shear_thinning",))) is None
 
 
-def test_dry_friction_beside_a_power_law_stands_though_a_curve_over_the_rate_has_it_for_a_part():
-    """The curve alone leaves as little as both; so it says nothing against two."""
-    both = RigParameters(rate_exponent=0.6, kinetic_n_mm_per_mm=0.003)
-    assert form_of(*fitted(both, ("shear_thinning", "coulomb_friction"))) is None
+@pytest.mark.parametrize("dry", ["coulomb_friction", "speed_dependent_friction"])
+def test_dry_friction_beside_a_power_law_stands_though_a_curve_over_the_rate_has_it_for_a_part(dry):
+    """The curve alone leaves as little as both; so it says nothing against two. Nothing slides here."""
+    both = RigParameters(rate_exponent=0.6, kinetic_n_mm_per_mm=0.0005)
+    assert form_of(*fitted(both, ("shear_thinning", dry))) is None
 
 
 def test_a_curve_over_the_rate_begins_as_the_power_law_that_it_replaces():

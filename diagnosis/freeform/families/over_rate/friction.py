@@ -100,7 +100,7 @@ def _friction_over_rate(ranges: LogRanges) -> Family:
         x_unit="rad/s",
         unit="N mm / mm",
         as_effect={"shear_thinning": partial(_power_law, curve, rates, ranges.dry_level.low)},
-        contains=("coulomb_friction", "stiction"),
+        contains=("coulomb_friction", "speed_dependent_friction", "stiction"),
     )
 
 
