@@ -2,7 +2,8 @@
 
 Without a known torque at the tip, all laws contain only angles and ratios of torques. So
 
-- a torque sensor of gain s gives the same log as a rig with s times the stiffness and damping;
+- a torque sensor of gain s gives the same log as a rig with s times the stiffness and damping; so any
+  two of the three, each off by its own factor, give the same log as any other two of them;
 - a base encoder that reads s theta gives the same log as a rig that turns by s theta, with a tip sensor
   of gain 1/s and torques of gain 1/s.
 
@@ -22,6 +23,8 @@ EQUIVALENTS: dict[str, tuple[tuple[str, ...], ...]] = {
     ),
 }
 """Sets that may stand for an effect where no known torque acts at the tip."""
+SCALES_OF_TORQUE = {"damping_error", "stiffness_error", "torque_scale"}
+"""Two of these may stand for any other two."""
 SCALE_OF_ANGLES = {"base_angle_scale": {"needle_curvature"}}
 """Effects beside which an encoder's gain shows: their law has an angle of its own."""
 
@@ -39,7 +42,16 @@ def acceptable(effects: Sequence[str], *, loaded: bool) -> list[list[str]]:
         others = {*effects} - {name}
         if not others & SCALE_OF_ANGLES.get(name, set()):
             found += [sorted(others | {*instead}) for instead in EQUIVALENTS.get(name, ())]
-    return found
+    return [*found, *(two for two in _other_two_scales({*effects}) if two not in found)]
+
+
+def _other_two_scales(effects: set[str]) -> list[list[str]]:
+    """The set with any other two scales of torques in place of two that it has."""
+    others = effects - SCALES_OF_TORQUE
+    if len(effects - others) != 2:
+        return []
+    pairs = ({*SCALES_OF_TORQUE} - {name} for name in sorted(SCALES_OF_TORQUE))
+    return [sorted(others | pair) for pair in pairs if others | pair != effects]
 
 
 def as_effects(rig: IndependentRig) -> Mapping[str, Mapping[str, float]]:

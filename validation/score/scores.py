@@ -91,12 +91,16 @@ def _over_limit(answer: dict[str, Any], report: dict[str, Any]) -> float:
 
 
 def _is_right(answer: dict[str, Any], row: dict[str, Any]) -> bool:
-    """Whether a row of the ranking names the true effects; what is optional may be there or not."""
-    if not answer["effects"]:
+    """Whether a row of the ranking names the true effects, or as many that no log can tell from them;
+    what is optional may be there or not.
+    """
+    true = set(answer["effects"])
+    if not true:
         return bool(row["effect"] == answer["verdict"])
     optional = optional_effects(answer)
     named = set(row.get("effects", row["effect"].split(" + ")))
-    return named - optional == set(answer["effects"]) - optional
+    equal = (set(names) for names in answer.get("acceptable", []) if len(names) == len(true))
+    return any(named - optional == names - optional for names in (true, *equal))
 
 
 def _kind(answer: dict[str, Any]) -> str:

@@ -28,6 +28,19 @@ def test_a_torque_gain_is_stiffness_and_damping_off_alike(differ, make_rig):
     assert differ(rig, make_rig(**scaled(stiffness_error=1.1))) > 1.0
 
 
+def test_any_two_scales_of_torques_stand_for_any_other_two(differ, make_rig):
+    rig = make_rig(**scaled(stiffness_error=1.2, damping_error=0.9))
+    assert differ(rig, make_rig(**scaled(torque_scale=1.2, damping_error=0.75))) < 1e-3
+    assert differ(rig, make_rig(**scaled(torque_scale=0.9, stiffness_error=4 / 3))) < 1e-3
+    assert differ(rig, make_rig()) > 1.0
+    two = [["damping_error", "torque_scale"], ["stiffness_error", "torque_scale"]]
+    assert acceptable(["stiffness_error", "damping_error"], loaded=False) == two[::-1]
+    assert acceptable(["stiffness_error", "damping_error"], loaded=True) == []
+    with_drag = acceptable(["torque_scale", "damping_error", "tip_drag"], loaded=False)
+    assert ["damping_error", "stiffness_error", "tip_drag"] in with_drag
+    assert ["stiffness_error", "tip_drag", "torque_scale"] in with_drag
+
+
 @pytest.mark.parametrize("others", [("torque_scale",), ("stiffness_error", "damping_error")])
 def test_an_encoder_gain_is_gains_of_tip_and_torque(differ, make_rig, others):
     """At a shown base s theta the true tip and torque are 1/s of the nominal ones."""

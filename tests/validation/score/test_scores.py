@@ -40,6 +40,24 @@ def test_the_score_sees_a_wrong_ground_truth(folder, scores, tmp_path):
     assert read_scores(shifted)["exact"].mean() < 0.3 < summary(scores)["exact"].mean()
 
 
+def test_a_row_of_as_many_effects_that_no_log_can_tell_from_the_true_ones_is_right(scored):
+    """Its probability counts with that of the truth; that of fewer effects does not."""
+    rows = {
+        "torque_scale": 0.6,
+        "damping_error + torque_scale": 0.3,
+        "damping_error + stiffness_error": 0.1,
+    }
+    ranking = [
+        {"effect": effect, "effects": effect.split(" + "), "probability": p}
+        for effect, p in rows.items()
+    ]
+    answer = explained("damping_error", "stiffness_error")
+    answer["acceptable"] = [["damping_error", "torque_scale"], ["torque_scale"]]
+    table = scored({"a": answer}, {"a": {**explained("torque_scale"), "ranking": ranking}})
+    assert table["probability_right"]["a"] == pytest.approx(0.4)
+    assert not table["top_right"]["a"]
+
+
 @pytest.mark.parametrize(
     ("true", "scale", "diagnosed", "exact"),
     [
