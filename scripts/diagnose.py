@@ -28,7 +28,7 @@ from diagnosis.report.sentences.nearest import (
     differing_trials,
 )
 from diagnosis.report.sentences.residual import largest_parts, largest_residual
-from diagnosis.report.tables import limit_in_words
+from diagnosis.report.tables import interval_rows, limit_in_words
 from diagnosis.report.write import load_libraries, output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, band_name
 from diagnosis.result import Diagnosis
@@ -137,10 +137,12 @@ def _summary(found: Diagnosis, console: Console) -> None:
     console.print(Text(what, "bold"))
     for sentence in (sure, then):
         console.print(sentence, highlight=False)
-    if sentence := imperfections(found):
+    sentence = imperfections(found)
+    if sentence and found.verdict.kind is not VerdictKind.NONE:  # which begins with it
         console.print(sentence, highlight=False)
     for warning in found.warnings:
-        console.print(f"warning: {warning}", highlight=False)
+        if warning not in found.log.warnings:  # those were told while the log was read
+            console.print(f"warning: {warning}", highlight=False)
     print_table(console, _breakdown_table(found))
     for sentence in (largest_parts(found), largest_residual(found)):
         console.print(sentence, highlight=False)
@@ -181,9 +183,8 @@ def _by_part(parts: ResidualBreakdown) -> Iterator[tuple[str, float]]:
 def _parameter_table(parameters: Mapping[str, Any], title: str) -> Table:
     table = Table("effect", "parameter", "value", "95 % interval", "unit", title=title)
     for effect, values in parameters.items():
-        for name, p in values.items():
-            interval = f"{p['low']:.4g} .. {p['high']:.4g}"
-            table.add_row(effect, name, f"{p['value']:.4g}", interval, p["unit"])
+        for name, value, low, high, unit in interval_rows(values):
+            table.add_row(effect, name, value, f"{low} .. {high}", unit)
     return table
 
 

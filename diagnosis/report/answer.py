@@ -1,4 +1,4 @@
-"""The answer in three sentences: what was found, how sure that is and how much it explains, what to do.
+"""The answer in three parts: what was found, how sure that is and how much it explains, what to do.
 
 They open the page and the summary on the screen.
 """
@@ -6,6 +6,7 @@ They open the page and the summary on the screen.
 from diagnosis.criteria.assessment import CERTAIN_PROBABILITY
 from diagnosis.freeform.missing.in_words import what_is_missing
 from diagnosis.in_sigma import in_sigma
+from diagnosis.report.sensors import told_of_sensors
 from diagnosis.report.sentences.names import explanation_name, explanations, titles
 from diagnosis.report.sentences.verdict import headline
 from diagnosis.result import Diagnosis
@@ -30,7 +31,8 @@ def _sure(found: Diagnosis) -> str:
         case VerdictKind.EXPLAINED:
             return f"{_probability(found)}; {_share(found, 'it')}{_beside(found)}"
         case VerdictKind.UNDECIDED:
-            return f"Sure that it is one of these, but not which one; {_share(found, 'the first')}"
+            which = f"but not which one (probability of the first: {_of_the_first(found):.3f})"
+            return f"Sure that it is one of these, {which}; {_share(found, 'the first')}"
     return _nearest(found)
 
 
@@ -71,6 +73,12 @@ def _probability(found: Diagnosis) -> str:
     return f"Probability {told} among all explanations that were tried{beside}"
 
 
+def _of_the_first(found: Diagnosis) -> float:
+    """Probability of the first of the confusable sets."""
+    first = explanation_name(found.verdict.confusable[0])
+    return {explanation_name(names): p for names, p in found.verdict.ranking}[first]
+
+
 def _share(found: Diagnosis, which: str) -> str:
     gap, where = found.assessment.gap, _HELD_OUT if len(found.log.trials) > 1 else _NOT_HELD_OUT
     return (
@@ -84,8 +92,13 @@ def _next(found: Diagnosis) -> str:
     if advice:
         return f"Next: {advice}"
     if found.verdict.kind is VerdictKind.NONE:
+        change = (
+            "mend the sensors, or allow for what they do; the model need not change"
+            if told_of_sensors(found)
+            else "nothing has to change"
+        )
         return (
-            "Next: nothing has to change; if an effect below its detection limit would matter to "
+            f"Next: {change}; if an effect below its detection limit would matter to "
             "you, record trials in which it acts more strongly"
         )
     return "Next: run the diagnosis to its end; it was stopped before the next step was determined"

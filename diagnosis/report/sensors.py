@@ -10,21 +10,28 @@ from diagnosis.replay.rig_parameters import ClockStart, ReadingJump
 from diagnosis.result import Diagnosis
 
 _SENSORS = {TORQUE: "the torque sensor", TIP: "the tip sensor"}
+_UNITS = {TORQUE: "N mm", TIP: "deg"}
 
 
 def imperfections(found: Diagnosis) -> str:
     """What the sensors do beside noise, in one sentence; empty where nothing had to be allowed for."""
+    said = told_of_sensors(found)
+    return f"The sensors are not perfect; the diagnosis allows for this: {said}" if said else ""
+
+
+def told_of_sensors(found: Diagnosis) -> str:
+    """What the sensors do beside noise, as phrases; empty where nothing had to be allowed for."""
     errors = found.assessment.sensors
     lines = [_told(name, parameters) for name, parameters in errors.imperfections.items()]
     lines += [_ran(sensor, errors.clock_starts) for sensor in _SENSORS]
     lines += [
-        f"a drift of {_SENSORS[sensor]}, by up to {in_sigma(most)} within a trial"
+        f"a drift of {_SENSORS[sensor]}, by up to {in_sigma(most)} "
+        f"({most * found.noise[sensor]:.2g} {_UNITS[sensor]}) within a trial"
         for sensor, most in errors.drift_sigma.items()
         if most > 0.0
     ]
     lines += map(_jumped, errors.reading_jumps)
-    said = "; ".join(filter(None, lines))
-    return f"The sensors are not perfect; the diagnosis allows for this: {said}" if said else ""
+    return "; ".join(filter(None, lines))
 
 
 def _ran(sensor: str, clocks: Sequence[ClockStart]) -> str:

@@ -1,6 +1,7 @@
 """The tables of `report.html`."""
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -15,18 +16,36 @@ from diagnosis.result import Diagnosis
 from diagnosis.selection.record import Decision, RecordEntry
 
 _FOUR_DECIMALS = (0.1, 10.0)  # factors near 1 are told by four decimals, else three digits
+_LEAST_DIGITS, _MOST_DIGITS = 4, 9  # significant, of parameters
 _SHOWN_SETS = 8  # sets of effects that were dropped for one reason; single effects are all named
 
 
 def parameter_table(parameters: Mapping[str, Any]) -> str:
     """Parameters of what explains the log, with their intervals."""
     rows = [
-        (effect, name, f"{p['value']:.4g}", f"{p['low']:.4g} to {p['high']:.4g}", p["unit"])
+        (effect, name, value, f"{low} to {high}", unit)
         for effect, values in parameters.items()
-        for name, p in values.items()
+        for name, value, low, high, unit in interval_rows(values)
     ]
     head = ("effect", "parameter", "value", "95 % interval", "unit")
     return table(head, rows, "Fitted parameters")
+
+
+def interval_rows(values: Mapping[str, Any]) -> Iterator[tuple[str, str, str, str, str]]:
+    """Name, value, both ends of the interval and unit, with digits that tell the ends apart."""
+    for name, p in values.items():
+        each = (p["value"], p["low"], p["high"])
+        digits = _digits(*each)
+        value, low, high = (f"{number:.{digits}g}" for number in each)
+        yield name, value, low, high, p["unit"]
+
+
+def _digits(value: float, low: float, high: float) -> int:
+    """Significant digits of these: one or two of the width of the interval, four at least."""
+    width, size = high - low, max(abs(value), abs(low), abs(high))
+    if not 0.0 < width < size:
+        return _LEAST_DIGITS
+    return min(max(_LEAST_DIGITS, math.ceil(math.log10(size / width)) + 1), _MOST_DIGITS)
 
 
 def part_table(by_part: Sequence[ValuesByPart], caption: str) -> str:

@@ -124,7 +124,7 @@ def _coupling(most_n_mm: float) -> Family:
         ),
         places=_PLACES,
         says="torque",
-        title="torque that turns the needle in its chuck, from the middle to a stop",
+        title="torque at which the needle slips in its chuck, between two stops",
         curve=_taken,
         x_unit="deg",
         unit="N mm",
@@ -136,7 +136,7 @@ def _loose_holder(coupling: Family) -> Family:
         coupling,
         name="slip of the tissue between stops over torque",
         title="tissue that is loose in its holder, between stops, with friction and a spring",
-        told="torque that turns the tissue in its holder, from the middle to a stop",
+        told="torque at which the tissue slips in its holder, between two stops",
         apply=_apply_loose_holder,
     )
 

@@ -20,6 +20,7 @@ from diagnosis.effects.effect import Place
 from diagnosis.freeform.family import VISCOUS
 from diagnosis.freeform.law_curve import Law
 from diagnosis.freeform.likeness.shapes import LINE, OF_ANY, OF_BOTH_SIGNS, OF_RATE, Shape, of_angle
+from diagnosis.freeform.missing.words import VARIABLES
 
 Array = NDArray[np.float64]
 
@@ -73,7 +74,10 @@ def likeness_of(law: Law) -> Likeness | None:
         return None
     shape, values = found[0].shape, found[0].values
     library = LIBRARY_LAWS.get((law.place, law.variable, law.unit, shape.name), ())
-    return Likeness(shape=shape.name, says=shape.says.format(*values), library=library)
+    x, y = ("" if unit == "-" else f" {unit}" for unit in (law.x_unit, law.unit))
+    of = f"{VARIABLES[law.variable]}{x and f' in{x}'}"
+    says = shape.says.format(*values, x=x, y=y, per=x.strip() or "unit", variable=of)
+    return Likeness(shape=shape.name, says=says, library=library)
 
 
 def recognised(law: Law) -> list[Recognised]:

@@ -25,7 +25,8 @@ class Shape:
     """A plain law.
 
     Attributes:
-      says: the law in words, with values of the parameters in braces, by position.
+      says: the law in words, with values of the parameters in braces, by position; {x} and {y} are units
+        after a number, or nothing, {per} is that of x alone, {variable} is what x is.
       law: y from x and the parameters.
       start: starting values of the parameters, from x and y.
       low: least values of the parameters; empty: they may be any.
@@ -47,7 +48,7 @@ def _line(x: Array, a: float, b: float) -> Array:
 
 
 def _decay(x: Array, a: float, b: float, tau: float) -> Array:
-    return np.asarray(a + b * np.exp(-(x - x[0]) / abs(tau)))
+    return np.asarray(a + b * np.exp(-(x - x[0]) / tau))
 
 
 def _step(x: Array, a: float, b: float, at: float) -> Array:
@@ -72,7 +73,7 @@ def _of_size(x: Array, a: float, b: float) -> Array:
 
 
 def _hyperbola(x: Array, a: float, half: float) -> Array:
-    return np.asarray(a / (1.0 + np.abs(x / half)))
+    return np.asarray(a / (1.0 + np.abs(x) / half))
 
 
 def _power(x: Array, a: float, p: float) -> Array:
@@ -113,19 +114,19 @@ def _waves(x: Array, y: Array, cycles: int) -> tuple[float, tuple[float, ...]]:
 
 _DRY_AND_VISCOUS = Shape(
     name="dry and viscous friction",
-    says="dry friction of {0:.3g} and damping of {1:.3g} at 1 rad/s",
+    says="dry friction of {0:.3g}{y} and damping of {1:.3g}{y} at 1 rad/s",
     law=_dry_and_viscous,
     start=lambda x, y: (float(abs(y).min()), _slope(x, y)),
 )
 _POWER = Shape(
     name="power law",
-    says="{0:.3g} at 1 rad/s, with the power {1:.3g} of the rate",
+    says="{0:.3g}{y} at 1 rad/s, with the power {1:.3g} of the rate",
     law=_power,
     start=lambda x, y: (float(y[-1] / max(abs(x[-1]), 1e-9)), 1.0),
 )
 _STRIBECK = Shape(
     name="Stribeck friction",
-    says="dry friction of {0:.3g}, {1:.3g} more at rest, over a rate of {2:.3g} rad/s",
+    says="dry friction of {0:.3g}{y}, {1:.3g}{y} more at rest, over a rate of {2:.3g} rad/s",
     law=_stribeck,
     start=lambda x, y: (*(share * float(abs(y[0])) for share in (1.0, 0.3)), _middle(x), _slope(x, y)),
     low=(0.0, 0.0, 0.0, -np.inf),
@@ -134,43 +135,45 @@ OF_RATE = (_DRY_AND_VISCOUS, _POWER, _STRIBECK)
 OF_ANY = (
     Shape(
         name=LEVEL,
-        says="the same everywhere, {0:.3g}",
+        says="the same everywhere, {0:.3g}{y}",
         law=_constant,
         start=lambda x, y: (float(y.mean()),),
     ),
     Shape(
         name=LINE,
-        says="{0:.3g} at 0, changing by {1:+.3g} per unit",
+        says="{0:.3g}{y} at 0, changing by {1:+.3g}{y} per {per}",
         law=_line,
         start=lambda x, y: (float(y[0]), _slope(x, y)),
     ),
     Shape(
         name="parabola",
-        says="{0:.3g} {1:+.3g} x {2:+.3g} x^2",
+        says="({0:.3g} {1:+.3g} x {2:+.3g} x²){y}, where x is {variable}",
         law=_parabola,
         start=lambda x, y: tuple(np.polynomial.polynomial.polyfit(x, y, 2)),
     ),
     Shape(
         name="cubic",
-        says="{0:.3g} {1:+.3g} x {2:+.3g} x^3",
+        says="({0:.3g} {1:+.3g} x {2:+.3g} x³){y}, where x is {variable}",
         law=_cubic,
         start=lambda x, y: tuple(np.polynomial.polynomial.polyfit(x, y, (0, 1, 3))[[0, 1, 3]]),
     ),
     Shape(
         name="hyperbola",
-        says="{0:.3g} at 0, half of it at {1:.3g}",
+        says="{0:.3g}{y} at 0, half of it at {1:.3g}{x}",
         law=_hyperbola,
         start=lambda x, y: (float(y[np.argmin(np.abs(x))]), float(0.3 * np.abs(x).max())),
+        low=(-np.inf, 0.0),
     ),
     Shape(
         name="exponential approach",
-        says="settles at {0:.3g}, {1:+.3g} at the beginning, which falls to 37 % over {2:.3g}",
+        says="settles at {0:.3g}{y}, {1:+.3g}{y} at the beginning, which falls to 37 % over {2:.3g}{x}",
         law=_decay,
         start=lambda x, y: (float(y[-1]), float(y[0] - y[-1]), float(0.3 * (x[-1] - x[0]))),
+        low=(-np.inf, -np.inf, 0.0),
     ),
     Shape(
         name="step",
-        says="{0:.3g}, and {1:+.3g} beyond {2:.3g}",
+        says="{0:.3g}{y}, and {1:+.3g}{y} beyond {2:.3g}{x}",
         law=_step,
         start=lambda x, y: (float(y[0]), float(y[-1] - y[0]), _largest_jump(x, y)),
     ),
@@ -178,14 +181,14 @@ OF_ANY = (
 OF_BOTH_SIGNS = (
     Shape(
         name="line in the size of the variable",
-        says="{0:.3g} at 0, changing by {1:+.3g} per unit either way",
+        says="{0:.3g}{y} at 0, changing by {1:+.3g}{y} per {per} either way",
         law=_of_size,
         start=lambda x, y: (float(y[np.argmin(np.abs(x))]), float(np.polyfit(np.abs(x), y, 1)[0])),
     ),
 )
 _WAVE = Shape(
     name="sine wave",
-    says="{0:.3g} + {1:.3g} sin({3:.3g} angle + phase), phase {2:.3g} rad",
+    says="{0:.3g}{y} + {1:.3g}{y} sin({3:.3g} angle + phase), phase {2:.3g} rad",
     law=_wave,
     start=lambda x, y: min(_waves(x, y, n) for n in range(1, _MOST_CYCLES + 1))[1],
 )
@@ -206,7 +209,7 @@ def of_angle(x: Array) -> tuple[Shape, ...]:
 def _whole_waves(cycles: int) -> Shape:
     return Shape(
         name=_WAVE.name,
-        says=f"{{0:.3g}} + {{1:.3g}} sin({cycles} angle + phase), phase {{2:.3g}} rad",
+        says=f"{{0:.3g}}{{y}} + {{1:.3g}}{{y}} sin({cycles} angle + phase), phase {{2:.3g}} rad",
         law=partial(_wave, cycles=cycles),
         start=lambda x, y: _waves(x, y, cycles)[1][:3],
     )

@@ -50,14 +50,14 @@ def _by_direction(back: float, forth: float, unit: str) -> str:
     stronger = abs(forth) > abs(back)
     way, ratio = ("forwards", forth / back) if stronger else ("backwards", back / forth)
     if ratio < _STRONGER:
-        return f"is {forth:.3g}{unit} in both directions"
+        return f"is {forth:.3g}{unit}, the same in both directions"
     return f"is {ratio:.2g} times as strong {way}"
 
 
 def _determined(law: Law) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """The points of a curve whose band is not far wider than the curve is large; all, if few are, or if
-    the curve is level there alone."""
-    most = _WIDEST * statistics.median(map(abs, law.y))
+    """The points of a curve whose band is not far wider than the curve is large, or changes; all, if few
+    are, or if the curve is level there alone."""
+    most = max(_WIDEST * statistics.median(map(abs, law.y)), max(law.y) - min(law.y))
     points = zip(law.x, law.y, law.low, law.high, strict=True)
     known = [(x, y) for x, y, least, greatest in points if greatest - least <= most]
     level_there = len({y for _, y in known}) == 1 and len(set(law.y)) > 1

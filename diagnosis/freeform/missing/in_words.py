@@ -1,5 +1,7 @@
 """What the library lacks, in plain words."""
 
+from collections.abc import Sequence
+
 from diagnosis.criteria.freeform import FAR_GAP
 from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Place
@@ -10,7 +12,7 @@ from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.likeness.shapes import LEVEL
 from diagnosis.freeform.missing.course import course_of
 from diagnosis.freeform.missing.missing import Missing
-from diagnosis.freeform.missing.words import CHECKS, PLACES, VARIABLES
+from diagnosis.freeform.missing.words import PLACES, VARIABLES, check_of
 from diagnosis.freeform.save import can_be_saved
 from diagnosis.in_sigma import in_sigma
 from diagnosis.replay.free_law import FreeLaw
@@ -24,7 +26,7 @@ DOUBT = (
 )
 SEEN = "on the trials of its fit"
 UNSEEN = "on trials that its fit has not seen"
-_HINT = "still far above the noise, so that a curve is no more than a hint"
+_HINT = "still far above the noise: take the curve as a hint only"
 _OTHERS = 3
 _LEAST_TOLD, _MOST_TOLD = 0.05, 0.95  # of the readings: as good as none, or all
 _NEARLY = 0.25  # probability from which another place is told
@@ -52,7 +54,7 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     )
     falls = f"the residual from {in_sigma(gap_before)} to {in_sigma(first.gap_after)} {where}"
     if first.gap_after > FAR_GAP:
-        return f"{depends} {_with_so_many_more(len(more), beside)} {falls}: {_HINT}."
+        return f"{depends} {_with_so_many_more(missing.beside, beside)} {falls}; {_HINT}."
     each = zip(missing.beside, more, strict=True)
     others = "".join(f" {_more_of(law, course)}" for law, course in each)
     reduces = "Together they reduce" if others else f"A free-form law of this kind{beside} reduces"
@@ -68,11 +70,16 @@ def _unseen(determined_share: float) -> str:
     return f"{UNSEEN} (others tell of the law in {100 * determined_share:.0f} % of the readings)"
 
 
-def _with_so_many_more(count: int, beside: str) -> str:
-    """That a law, with so many beside it, reduces a residual that stays far above the noise."""
-    if count == 0:
+def _with_so_many_more(more: Sequence[Law], beside: str) -> str:
+    """That a law, with more laws beside it, reduces a residual that stays far above the noise."""
+    if not more:
         return f"A free-form law of this kind{beside} reduces"
-    return f"This law{beside} and {'another one' if count == 1 else f'{count} others'} reduce"
+    each = (
+        f"{'a factor' if law.multiplies else f'one {PLACES[law.place]}'} that depends on "
+        f"{VARIABLES[law.variable]}"
+        for law in more
+    )
+    return f"This law{beside}, with {' and '.join(each)}, reduces"
 
 
 def _where(missing: Missing, place: Place) -> str:
@@ -128,7 +135,7 @@ def next_step(missing: Missing) -> str:
     """What to do next, as an instruction; empty: there is no law to check."""
     if missing.law is None:
         return ""
-    check = CHECKS[missing.law.variable]
+    check = check_of(missing.law.place, missing.law.variable)
     if not missing.closed:
         return f"{check}; the law leaves more than noise, so examine the remaining residual next"
     if not can_be_saved(missing):

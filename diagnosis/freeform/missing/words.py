@@ -23,7 +23,7 @@ VARIABLES = {
     "position": "the place along the shaft",
     "history": "what happened before",
 }
-CHECKS = {
+_CHECKS = {
     "time": "repeat one slow turn at the beginning of a trial, at its end, and in the last trial",
     "event": "look up what was done at that time, and repeat the trial: only a lasting cause makes it "
     "jump again",
@@ -38,4 +38,11 @@ CHECKS = {
     "position": "repeat one turn at depths that grow in equal steps: each step adds a part of the shaft",
     "history": "repeat one turn after rests of different length, and after different numbers of turns",
 }
-"""What shows a law of each variable by itself, as an order."""
+_WHILE_TURNING = "turn at one steady rate while sliding the needle in and out at three speeds"
+"""Of the axial speed, for what acts about the axis: without turning, sensors alone show it."""
+
+
+def check_of(place: Place, variable: str) -> str:
+    """What shows a law of a variable by itself, as an order."""
+    turns = variable == "axial_speed" and place is not Place.SENSOR
+    return _WHILE_TURNING if turns else _CHECKS[variable]

@@ -1,4 +1,4 @@
-"""The head of `report.html`: whose log, when and by what, then the answer in three sentences."""
+"""The head of `report.html`: whose log, when and by what, then the answer in three parts."""
 
 from importlib.metadata import PackageNotFoundError, version
 

@@ -45,11 +45,12 @@ def nearest(found: Diagnosis) -> str:
 def about_as_near(found: Diagnosis) -> str:
     """Which other sets come about as near to an unknown log, in one sentence; else empty."""
     others = [" + ".join(names) for names in found.verdict.as_near]
-    if not others:
+    if not others or not found.assessment.nearest.effects:
         return ""
     return (
         "Others come about as near, within a tenth of the residual on the decimated log: "
-        f"{'; '.join(others)}. What all of them lack decides which leads"
+        f"{'; '.join(others)}. Their order means little, since all of them "
+        "lack what is missing"
     )
 
 

@@ -1,6 +1,7 @@
 """What is left of a log, and where."""
 
 from diagnosis.criteria.assessment import ALMOST_NOTHING_SIGMA
+from diagnosis.criteria.residuals import STRETCH_S
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.report.sentences.names import best_in_words
@@ -55,7 +56,9 @@ def replay_quality(found: Diagnosis) -> list[str]:
 def largest_residual(found: Diagnosis) -> str:
     """Where along time the residual of the nominal model is largest."""
     stretch, value = found.assessment.breakdown.worst
-    return f"Largest residual of the nominal model: {in_sigma(value)}, {stretch}"
+    return (
+        f"Worst {STRETCH_S:g} s of the nominal model, all sensors together: {in_sigma(value)}, {stretch}"
+    )
 
 
 def largest_parts(found: Diagnosis) -> str:

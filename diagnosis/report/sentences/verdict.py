@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
+from diagnosis.report.sensors import told_of_sensors
 from diagnosis.report.sentences.names import capital, titles
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
@@ -12,6 +13,7 @@ from diagnosis.selection.verdicts.verdict import VerdictKind
 _NOTHING = "the nominal model as it is"
 _FAR_FROM_CLAIMED = 10.0  # times the noise in rig.yaml: what no model explains is likely in it
 _TOGETHER = 0.6  # of the residual on unseen trials: what is left of all trials fitted at once
+_LEAST_PERCENT = 1.0  # of the power of a residual, which is told as a number
 _SETS = 4  # explanations that are told in a sentence
 
 
@@ -26,8 +28,8 @@ def headline(found: Diagnosis) -> str:
 
 def _best_so_far(found: Diagnosis) -> str:
     """What a search that was cut short has come to: never that nothing else is there."""
-    verdict, near, gap = found.verdict, found.assessment.nearest, found.assessment.gap
-    residual = f"residual {in_sigma(gap.before)} → {in_sigma(gap.after)} {_what_sigma_is(found)}"
+    verdict, near = found.verdict, found.assessment.nearest
+    residual = f"residual {_residual(found)}"
     if verdict.kind is VerdictKind.UNKNOWN:
         none = f"{titles(near.effects) or _NOTHING}, which does not explain the gap: {residual}"
         return f"{none}{_of_all_trials_together(found)}"
@@ -35,44 +37,61 @@ def _best_so_far(found: Diagnosis) -> str:
 
 
 def _verdict(found: Diagnosis) -> str:
-    gap, effects = found.assessment.gap, found.verdict.effects
-    sigma = _what_sigma_is(found)
-    before, after = f"{in_sigma(gap.before)}", f"{in_sigma(gap.after)} {sigma}"
+    effects, residual = found.verdict.effects, _residual(found)
     match found.verdict.kind:
         case VerdictKind.NONE:
-            return f"No gap beyond noise: the nominal model explains the log, residual {after}"
+            return _nothing(found)
         case VerdictKind.EXPLAINED:
             verb = "explain" if len(effects) > 1 else "explains"
-            return capital(f"{titles(effects)} {verb} the gap: residual {before} → {after}")
+            return capital(f"{titles(effects)} {verb} the gap: residual {residual}")
         case VerdictKind.UNDECIDED:
             sets = _each_of(found.verdict.confusable)
-            return f"Undecided: these explain the gap equally well: {sets}; residual {before} → {after}"
+            return f"Undecided: any of these may explain the gap: {sets}; residual {residual}"
         case _:
-            near = found.assessment.nearest
-            if found.verdict.other_form:
-                return (
-                    f"Unknown: residual {before}. {capital(titles(near.effects))} would leave "
-                    f"{in_sigma(near.gap_after)} {sigma}, but {found.verdict.other_form}"
-                )
-            best, named = found.verdict.best, titles(near.effects) or _NOTHING
-            named += _beside_sensors(near.imperfections)
-            power = f"{near.power_explained_percent:.0f} % of its power"
-            if best.floor.small and best.objection and {*best.named} == {*near.effects}:
-                return (
-                    f"Unknown: residual {before}. {capital(named)} would leave "
-                    f"{in_sigma(near.gap_after)} {sigma} and explain {power}, but "
-                    f"{'do' if len(near.effects) > 1 else 'does'} not count: {best.objection}"
-                )
-            least = (
-                f"at best {in_sigma(near.gap_after)} {sigma}, with {named}, which "
-                f"{'explain' if len(near.effects) > 1 else 'explains'} {power}"
-                if near.effects
-                else f"which none of them lowers {sigma}"
-            )
-            return (
-                "Unknown: no effect of the library, nor two or three together, explains the gap: "
-                f"residual {before}, {least}{_of_all_trials_together(found)}"
-            )
+            return _unknown(found)
+
+
+def _residual(found: Diagnosis) -> str:
+    gap = found.assessment.gap
+    return f"{in_sigma(gap.before)} → {in_sigma(gap.after)} {_what_sigma_is(found)}"
+
+
+def _nothing(found: Diagnosis) -> str:
+    left = f"{in_sigma(found.assessment.gap.after)} {_what_sigma_is(found)}"
+    if sensors := told_of_sensors(found):
+        return (
+            "The model of the needle lacks nothing; all of the gap is in the sensors: "
+            f"{sensors}. With that allowed for, the nominal model leaves {left}"
+        )
+    return f"No gap beyond noise: the nominal model explains the log, residual {left}"
+
+
+def _unknown(found: Diagnosis) -> str:
+    """Why nothing explains the log: what would, but does not count, or what comes nearest."""
+    best, near = found.verdict.best, found.assessment.nearest
+    before, sigma = in_sigma(found.assessment.gap.before), _what_sigma_is(found)
+    left, named = f"{in_sigma(near.gap_after)} {sigma}", titles(near.effects) or _NOTHING
+    if found.verdict.other_form:
+        would = f"{capital(named)} would leave {left}"
+        return f"Unknown: residual {before}. {would}, but {found.verdict.other_form}"
+    named += _beside_sensors(near.imperfections)
+    power, several = f"{_percent(near.power_explained_percent)} of its power", len(near.effects) > 1
+    if best.floor.small and best.objection and {*best.named} == {*near.effects}:
+        return (
+            f"Unknown: residual {before}. {capital(named)} would leave {left} and explain {power}, "
+            f"but {'do' if several else 'does'} not count: {best.objection}"
+        )
+    least = (
+        f"at best {left}, with {named}, which {'explain' if several else 'explains'} {power}"
+        if near.effects
+        else f"which nothing that was tried lowers on trials that its fit has not seen {sigma}"
+    )
+    nothing = "Unknown: nothing in the library explains the gap, alone or together"
+    return f"{nothing}: residual {before}, {least}{_of_all_trials_together(found)}"
+
+
+def _percent(share: float) -> str:
+    return f"{share:.0f} %" if share >= _LEAST_PERCENT else f"less than {_LEAST_PERCENT:g} %"
 
 
 def _each_of(sets: Sequence[Sequence[str]]) -> str:
@@ -104,10 +123,11 @@ def _of_all_trials_together(found: Diagnosis) -> str:
     if not best.named or best.fit.gap > _TOGETHER * near.gap_after:
         return ""
     leaves = "leave" if len(best.named) > 1 else "leaves"
+    closed = found.missing is not None and found.missing.closed  # then one rig explains all trials
+    check = ": check whether all were recorded on the same rig, with the same columns"
     return (
         f". {capital(titles(best.named))} {leaves} {in_sigma(best.fit.gap)} of all trials together, "
-        f"but predictions from the other trials {in_sigma(near.gap_after)}: check whether all were "
-        "recorded on the same rig, with the same columns"
+        f"but predictions from the other trials {in_sigma(near.gap_after)}{'' if closed else check}"
     )
 
 

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from diagnosis.effects import LIBRARY
 from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.verdicts.rivals import certain_lead
 
 NOTHING, UNEXPLAINED = "none", "unknown"
 """What a ranking has beside effects: the nominal rig, and what the library does not hold."""
@@ -29,10 +30,15 @@ def ranking_of(
 def _probabilities(candidates: Sequence[Candidate], best: Candidate) -> dict[tuple[str, ...], float]:
     """Of sets of effects: exp(-score / 2), normalised; fits of one set add up.
 
-    By what the best with more beside it would have to lead to be named counts against it.
+    By what the best with more beside it would have to lead to be named counts against it. Of another
+    one only that counts by which the best leads for certain.
     """
     weights = dict[tuple[str, ...], float]()
-    scores = [c.score + c.lead_over_part * _has_more(c, best) for c in candidates]
+    reached = min(c.score for c in (best, *candidates) if {*c.named} == {*best.named})
+    scores = [
+        reached + certain_lead(best, c, reached) + c.lead_over_part * _has_more(c, best)
+        for c in candidates
+    ]
     least = min(scores)
     for c, score in zip(candidates, scores, strict=True):
         named = tuple(sorted(c.named))

@@ -1,4 +1,4 @@
-"""The answer in three sentences, for every verdict."""
+"""The answer in three parts, for every verdict."""
 
 from dataclasses import replace
 
@@ -38,6 +38,15 @@ def test_what_cannot_be_told_from_it_is_in_the_second_sentence(dry):
     )
 
 
+def test_a_sensor_that_is_all_of_the_gap_is_to_be_mended(dry):
+    nothing = concluding(dry.found, kind=VerdictKind.NONE, effects=())
+    sensors = replace(nothing.assessment.sensors, drift_sigma={"base_torque_n_mm": 5.0})
+    _, _, then = answer(replace(nothing, assessment=replace(nothing.assessment, sensors=sensors)))
+    assert then.startswith(
+        "Next: mend the sensors, or allow for what they do; the model need not change;"
+    )
+
+
 def test_what_may_be_there_beside_nothing_is_in_the_second_sentence(dry):
     alike = ((), ("coulomb_friction",))
     nothing = concluding(dry.found, kind=VerdictKind.NONE, effects=(), confusable=alike)
@@ -57,7 +66,7 @@ def test_what_may_be_there_beside_nothing_is_in_the_second_sentence(dry):
         ),
         (
             {"kind": VerdictKind.UNDECIDED, "confusable": ALIKE, "advice": "turn slowly"},
-            "Sure that it is one of these, but not which one; the first explains 100.0 %",
+            "Sure that it is one of these, but not which one (probability of the first: 0.99",
             "Next: turn slowly.",
         ),
         (

@@ -29,10 +29,13 @@ def test_each_imperfection_is_told_with_its_value(dry):
 
 def test_a_drift_is_told_with_its_sensor_and_range(dry):
     found = having(dry.found, drift_sigma={TORQUE: 2.345, TIP: 0.0})
-    assert "drift of the torque sensor, by up to 2.35 σ within a trial" in imperfections(found)
+    assert "drift of the torque sensor, by up to 2.35 σ (0.023 N mm) within a trial" in imperfections(
+        found
+    )
     assert "tip" not in imperfections(found)
     found = having(dry.found, drift_sigma={TORQUE: 0.0, TIP: 4.2})
-    assert "drift of the tip sensor, by up to 4.20 σ within a trial" in imperfections(found)
+    assert "drift of the tip sensor, by up to 4.20 σ (" in imperfections(found)
+    assert " deg) within a trial" in imperfections(found)
     assert "torque" not in imperfections(found)
 
 

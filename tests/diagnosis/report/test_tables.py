@@ -53,6 +53,19 @@ def test_a_parameter_is_told_with_its_interval_and_unit():
     assert row == ["coulomb_friction", "level", "0.0015", "0.00148 to 0.00152", "N mm / mm"]
 
 
+@pytest.mark.parametrize(
+    ("interval", "told"),
+    [
+        ((1.02345, 1.02331, 1.02359), "1.0233 to 1.0236"),
+        ((2.0, 2.0, 2.0), "2 to 2"),  # held at a bound
+        ((0.1, -30.0, 30.0), "-30 to 30"),
+    ],
+)
+def test_the_ends_of_an_interval_have_digits_that_tell_them_apart(interval, told):
+    scale = dict(zip(("value", "low", "high"), interval, strict=True)) | {"unit": "-"}
+    assert cells(parameter_table({"tip_angle_scale": {"scale": scale}}))[1][3] == told
+
+
 def test_a_pair_is_one_row_at_its_probability_and_what_rounds_to_nothing_is_none(dry):
     sets = ((("torque_bias", "tip_drag"), 0.9), ((), 0.0999), (("stiction",), 0.0001))
     found = replace(dry.found, verdict=replace(dry.found.verdict, ranking=sets))

@@ -1,6 +1,7 @@
 """Which plain law a curve looks like: recovered from points that scatter as their bands say."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -163,6 +164,23 @@ def test_two_values_are_no_curve(variable):
 def test_where_the_library_has_the_law_its_effect_is_named(variable, place, unit, law, x, effects):
     told = curve(x, law(x), 0.02, variable=variable, place=place, unit=unit)
     assert likeness_of(told).library == effects
+
+
+def test_numbers_of_a_law_have_the_units_of_its_curve():
+    line = curve(TIMES, 1.0 + 0.5 * TIMES, np.full(TIMES.size, 0.03), variable="time", unit="N mm")
+    said = likeness_of(replace(line, x_unit="s")).says
+    assert re.fullmatch(r"\S+ N mm at 0, changing by \+0\.5\S* N mm per s", said)
+    assert likeness_of(replace(line, unit="-")).says.endswith(" per unit")
+    bowl = curve(SIGNED, 2.0 + SIGNED**2, np.full(SIGNED.size, 0.1), variable="torque", unit="deg")
+    said = likeness_of(replace(bowl, x_unit="N mm")).says
+    assert said.endswith("x²) deg, where x is the torque in N mm")
+
+
+def test_a_curve_that_grows_beyond_all_bounds_approaches_nothing():
+    """An exponential that grows has no constant over which it falls to 37 %."""
+    grows = np.exp(TIMES / 3.0)
+    law = curve(TIMES, grows, np.full(TIMES.size, 0.02), variable="time")
+    assert "exponential approach" not in [one.shape.name for one in recognised(law)]
 
 
 def test_every_effect_that_is_named_is_in_the_library():

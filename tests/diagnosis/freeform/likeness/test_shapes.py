@@ -31,7 +31,7 @@ def test_a_start_has_a_value_for_each_parameter_that_words_name(shape):
     start = shape.start(X, shape.law(X, *values))
     assert len(start) == len(values)
     assert np.isfinite(start).all()
-    assert "{" not in shape.says.format(*start)
+    assert "{" not in shape.says.format(*start, x="", y="", per="", variable="")
 
 
 def test_a_wave_starts_from_its_own_number_of_cycles():

@@ -16,7 +16,10 @@ from diagnosis.freeform.missing.course import course_of
         ({"y": (0.001, 0.004, 0.0015)}, "friction along the shaft varies between 0.001 and 0.004"),
         ({"variable": "direction", "y": (0.001, 0.002)}, "is 2 times as strong forwards"),
         ({"variable": "direction", "y": (0.003, 0.002)}, "is 1.5 times as strong backwards"),
-        ({"variable": "direction", "y": (0.00202, 0.002)}, "is 0.002 N mm / mm in both directions"),
+        (
+            {"variable": "direction", "y": (0.00202, 0.002)},
+            "is 0.002 N mm / mm, the same in both directions",
+        ),
         ({"variable": "direction", "y": (-0.1, 0.2)}, "is 0.2 N mm / mm forwards, -0.1 N mm / mm back"),
         (
             {"variable": "event", "x": (0.0, 2.5, 2.6, 4.5), "y": (0.0, 0.0, 3.0, 3.0), "x_unit": "s"},
@@ -56,6 +59,13 @@ def test_a_law_of_one_layer_is_not_told_as_none_where_its_level_is_uncertain():
     y, high = (0.0, 0.0, 0.004, 0.004, 0.0), (0.0, 0.0, 0.02, 0.02, 0.0)
     law = replace(LAW, x=(0.0, 50.0, 50.1, 60.0, 60.1), y=y, low=(0.0,) * 5, high=high)
     assert "varies between 0 and 0.004" in course_of(law)
+
+
+def test_a_law_that_is_next_to_nothing_but_at_its_end_is_told_with_that_end():
+    """Its median is far less than the width of its bands, which is less than what it comes to."""
+    x, y = (-5.0, -2.0, 0.1, 2.0, 5.0), (-0.0002, 0.0001, 0.002, 0.3, 0.45)
+    law = replace(LAW, x=x, y=y, low=tuple(v - 0.1 for v in y), high=tuple(v + 0.1 for v in y))
+    assert "rises from -0.0002 to 0.45 N mm / mm between -5 and 5" in course_of(law)
 
 
 def test_where_a_curve_is_not_determined_its_course_is_not_told():

@@ -5,12 +5,19 @@ from free_forms import VOCABULARY, covered
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families import families_of
-from diagnosis.freeform.missing.words import PLACES, VARIABLES
+from diagnosis.freeform.missing.words import PLACES, VARIABLES, check_of
 
 
 def test_every_place_and_variable_has_words():
     assert set(PLACES) == set(Place)
     assert set(VARIABLES) == VOCABULARY
+
+
+def test_what_acts_about_the_axis_is_checked_while_the_needle_turns():
+    """A needle that slides without turning shows errors of sensors, and no torque about its axis."""
+    assert "turn at one steady rate while sliding" in check_of(Place.INTERFACE, "axial_speed")
+    assert "without turning" in check_of(Place.SENSOR, "axial_speed")
+    assert all(check_of(place, variable) for place in Place for variable in VOCABULARY)
 
 
 def test_every_family_says_a_variable_of_the_vocabulary():

@@ -89,4 +89,10 @@ def test_what_comes_about_as_near_is_told_by_the_names_of_effects(dry):
     assert about_as_near(dry.found) == ""
     sets = (("stiction", "tip_drag"), ("entry_friction",))
     said = about_as_near(concluding(dry.found, as_near=sets))
-    assert "decimated log: stiction + tip_drag; entry_friction. What all of them lack" in said
+    assert "decimated log: stiction + tip_drag; entry_friction. Their order means" in said
+
+
+def test_nothing_comes_about_as_near_as_the_nominal_model(dry):
+    found = concluding(dry.found, as_near=(("entry_friction",),))
+    near = replace(found.assessment.nearest, effects=())
+    assert about_as_near(replace(found, assessment=replace(found.assessment, nearest=near))) == ""

@@ -81,7 +81,7 @@ def test_the_largest_residual_is_told_with_where_it_is(dry):
     stretch, value = dry.found.assessment.breakdown.worst
     assert (
         largest_residual(dry.found)
-        == f"Largest residual of the nominal model: {in_sigma(value)}, {stretch}"
+        == f"Worst 5 s of the nominal model, all sensors together: {in_sigma(value)}, {stretch}"
     )
 
 

@@ -43,13 +43,36 @@ TWO = ("tip_drag", "torque_bias")
         ({"effects": TWO}, "explain the gap: residual"),
         (
             {"kind": VerdictKind.UNDECIDED, "confusable": (("tip_drag",), ("torque_bias",))},
-            "Undecided: these explain the gap equally well:",
+            "Undecided: any of these may explain the gap:",
         ),
-        ({"kind": VerdictKind.UNKNOWN, "effects": ()}, "Unknown: no effect of the library"),
+        (
+            {"kind": VerdictKind.UNKNOWN, "effects": ()},
+            "Unknown: nothing in the library explains the gap, alone or together: residual",
+        ),
     ],
 )
 def test_every_verdict_has_its_headline(dry, verdict, said):
     assert said in headline(concluding(dry.found, **verdict))
+
+
+def test_a_gap_that_is_all_of_the_sensors_is_told_as_one(dry):
+    """The nominal column of the table is far above the noise then."""
+    sensors = replace(dry.found.assessment.sensors, drift_sigma={"base_torque_n_mm": 5.0})
+    nothing = concluding(dry.found, kind=VerdictKind.NONE, effects=())
+    told = headline(replace(nothing, assessment=replace(nothing.assessment, sensors=sensors)))
+    assert "lacks nothing; all of the gap is in the sensors: a drift of the torque sensor" in told
+    assert told.endswith(
+        f"With that allowed for, the nominal model leaves {in_sigma(dry.found.assessment.gap.after)} "
+        "(σ = sensor noise)"
+    )
+
+
+@pytest.mark.parametrize(("power", "told"), [(0.4, "less than 1 %"), (1.4, "1 %")])
+def test_next_to_no_power_is_told_as_that(dry, power, told):
+    near = replace(dry.found.assessment.nearest, power_explained_percent=power)
+    found = concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=())
+    found = replace(found, assessment=replace(dry.found.assessment, nearest=near))
+    assert f"{told} of its power" in headline(found)
 
 
 SEARCH = EarlyStop(why="limit of 30 s", stage="fitting pairs", left_out=("pairs",), search=True)
@@ -151,6 +174,10 @@ def test_trials_that_fit_together_and_not_from_each_other_may_differ(dry, times,
     left, unseen = in_sigma(best.fit.gap), in_sigma(near.gap_after)
     said = f"{left} of all trials together, but predictions from the other trials {unseen}"
     assert (said in headline(found)) is told
+    check = ": check whether all were recorded on the same rig"
+    assert (check in headline(found)) is told
+    closing = replace(missing_with(), closed=True)
+    assert check not in headline(replace(found, missing=closing))  # one rig explains all trials then
 
 
 @pytest.mark.parametrize("times", [3.0, 300.0])
@@ -167,5 +194,5 @@ def test_an_unknown_log_that_nothing_comes_nearer_to_has_no_best(dry):
     near = replace(dry.found.assessment.nearest, effects=())
     told = replace(dry.found.assessment, nearest=near)
     found = replace(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()), assessment=told)
-    assert "which none of them lowers" in headline(found)
+    assert "which nothing that was tried lowers on trials that its fit has not seen" in headline(found)
     assert "at best" not in headline(found)

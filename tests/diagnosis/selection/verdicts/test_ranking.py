@@ -1,14 +1,17 @@
 """Probabilities of all explanations."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosis_fixtures import scored, verdict_of
 
-from diagnosis.criteria.selection import SIMPLE_LEAD
+from diagnosis.criteria.selection import LATE_LEAD, SIMPLE_LEAD
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.selection.verdicts.decision import verdict_on
 from diagnosis.selection.verdicts.ranking import NOTHING, UNEXPLAINED, ranking_of
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 
 def test_a_ranking_is_of_what_explains_the_log():
@@ -53,6 +56,18 @@ def test_of_what_leads_by_enough_the_score_alone_counts():
     assert found.effects == ("tip_drag", "torque_bias")
     ranking = dict(found.ranking)
     assert ranking["tip_drag", "torque_bias"] / ranking["tip_drag",] == pytest.approx(np.exp(6.0))
+
+
+def test_of_trials_that_began_late_the_certain_part_of_a_lead_counts():
+    """As in the verdict; else what is undecided would have odds of thousands to one."""
+    first, second = scored(["tip_drag"], 100.0), scored(["entry_friction"], 117.0)
+    early = dict(verdict_on([first, second]).ranking)
+    assert early["tip_drag",] / early["entry_friction",] == pytest.approx(np.exp(8.5))
+    late = verdict_on([replace(one, begun_late=True) for one in (first, second)])
+    assert late.kind is VerdictKind.UNDECIDED
+    ranking = dict(late.ranking)
+    odds = ranking["tip_drag",] / ranking["entry_friction",]
+    assert odds == pytest.approx(np.exp(0.5 * (17.0 - LATE_LEAD)))
 
 
 def test_an_effect_has_no_such_lead_against_it_where_nothing_is_named():
