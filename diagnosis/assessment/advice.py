@@ -55,9 +55,15 @@ def _change(problem: FitProblem, verdict: Verdict, parameters: Parameters) -> st
 
 
 def _check(confusable: Sequence[tuple[str, ...]]) -> str:
-    """The check of the rig that tells sets of effects apart."""
-    first, *others = (_together(names) for names in confusable)
-    return f"{check_that_tells(confusable)}: that distinguishes {first} from {', or from '.join(others)}"
+    """The checks of the rig that tell the first set of effects from each of the others."""
+    first, *others = confusable
+    told = dict[str, list[str]]()
+    for other in others:
+        told.setdefault(check_that_tells([first, other]), []).append(_together(other))
+    return "; ".join(
+        f"{check}: that distinguishes {_together(first)} from {', or from '.join(sets)}"
+        for check, sets in told.items()
+    )
 
 
 def _together(names: Sequence[str]) -> str:

@@ -133,6 +133,19 @@ def test_where_nothing_is_left_to_do_nothing_is_said():
     assert advise(PROBLEM, nothing, NOMINAL, LEFT, {}) == ""
 
 
+def test_each_set_that_looks_the_same_has_the_check_that_tells_it():
+    """A known weight at rest shows a gain, and no delay."""
+    alike = (("torque_scale",), ("torque_sensor_delay", "torque_scale"), ("stiffness_error",))
+    gain = replace(SETTLED, effects=("torque_scale",), confusable=alike)
+    values = {"torque_scale": {"scale": Interval(value=1.1, low=1.0, high=1.2, unit="-")}}
+    said = advise(PROBLEM, gain, NOMINAL, LEFT, values)
+    late, known = LIBRARY["torque_sensor_delay"], LIBRARY["torque_scale"]
+    first = (
+        f"{late.check}: that distinguishes {known.title} from {late.title} and {known.title} at once; "
+    )
+    assert said.startswith(f"{first}{known.check}: that distinguishes {known.title} from ")
+
+
 def test_what_may_hide_an_effect_asks_for_the_check_that_shows_it():
     found = with_open_effects(verdict_on([scored(["tip_drag"], 100.0)]), ["torque_bias"])
     said = advise(PROBLEM, found, NOMINAL, LEFT, {})
