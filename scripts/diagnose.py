@@ -164,7 +164,9 @@ def _summary(found: Diagnosis, console: Console) -> None:
 
 
 def _breakdown_table(found: Diagnosis) -> Table:
-    table = Table("where", "nominal", label_of(found, "explained"), title="Residual / σ, fitted to all trials")
+    table = Table(
+        "where", "nominal", label_of(found, "explained"), title="Residual / σ, fitted to all trials"
+    )
     before, after = found.assessment.breakdown, found.assessment.breakdown_after
     for (name, gap), (_, left) in zip(_by_part(before), _by_part(after), strict=True):
         table.add_row(name, over_sigma(gap), over_sigma(left))

@@ -11,8 +11,8 @@ from diagnosis.result import Diagnosis
 
 _BREAKDOWN = (
     "Root mean square of measured minus predicted, in units of each sensor's noise (σ), for the "
-    "nominal model and for {best}, fitted to all trials. In a band of frequencies 1 is what white noise has there, so that "
-    "a slow residual comes to far more in its band than over all."
+    "nominal model and for {best}, fitted to all trials. In a band of frequencies 1 is what white noise "
+    "has there, so that a slow residual comes to far more in its band than over all."
 )
 _ALONG = (
     "A mean residual that changes sign with the rate means dry friction; one that grows with the "

@@ -1,12 +1,17 @@
-"""Bonds between shaft and tissue that twist, and break where they slip: tissue that tears."""
+"""Bonds that twist, and break where they slip: tissue that tears along the shaft, a membrane where it
+enters, a barb at the tip that comes loose.
+"""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.family import Family, Points
+from diagnosis.freeform.families.in_one_place.rubbing import AT_THE_TIP, ENTRY, Spot
+from diagnosis.freeform.family import Family, Points, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
@@ -39,11 +44,13 @@ _BONDS = (
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """The law of bonds that break, where the base turns."""
-    return (_bonds(ranges),) if Variable.HISTORY in ranges.ends else ()
+    """Bonds that break, along the shaft and in one place, where the base turns."""
+    if Variable.HISTORY not in ranges.ends:
+        return ()
+    return (_along(ranges), *(_in_one_place(spot, ranges) for spot in (ENTRY, AT_THE_TIP)))
 
 
-def _bonds(ranges: LogRanges) -> Family:
+def _along(ranges: LogRanges) -> Family:
     """Bristles whose level fades with the slip so far, to a part that stays."""
     level = ranges.dry_level
     starts = len(_BONDS[0].start)
@@ -53,7 +60,7 @@ def _bonds(ranges: LogRanges) -> Family:
             title="bonds between shaft and tissue that twist, and break where they slip",
             place=Place.INTERFACE,
             parameters=(replace(level, start=level.start[-1:] * starts), *_BONDS),
-            apply=_apply_bonds,
+            apply=partial(_apply_bonds, _everywhere),
             differences=(1e-1, 1e-2),
         ),
         places={Place.INTERFACE: 0.5, Place.TISSUE: 0.5},
@@ -63,6 +70,29 @@ def _bonds(ranges: LogRanges) -> Family:
         x_unit="deg of slip",
         unit="N mm / mm",
     )
+
+
+def _in_one_place(spot: Spot, ranges: LogRanges) -> Family:
+    level, along = spot.dry(ranges), _along(ranges)
+    starts = len(_BONDS[0].start)
+    return replace(
+        along,
+        effect=replace(
+            along.effect,
+            name=f"{spot.name} of breaking bonds over slip",
+            title=f"a bond {spot.words} that twists, and breaks where it slips",
+            place=most_probable(spot.places),
+            parameters=(replace(level, start=level.start[-1:] * starts), *_BONDS),
+            apply=partial(_apply_bonds, spot.with_laws),
+        ),
+        places=spot.places,
+        title=f"friction of the bond {spot.words}",
+        unit=spot.unit,
+    )
+
+
+def _everywhere(law: Interface) -> FreeLaw:
+    return FreeLaw(throughout=(law,))
 
 
 def _fading(slip_deg: float, left: float) -> ContactCurve:
@@ -84,11 +114,16 @@ def _broken(level: float, _: float, slip_deg: float, left: float) -> Points:
 
 
 def _apply_bonds(
-    rig: RigParameters, level: float, twist_deg: float, slip_deg: float, left: float
+    acting: Callable[[Interface], FreeLaw],
+    rig: RigParameters,
+    level: float,
+    twist_deg: float,
+    slip_deg: float,
+    left: float,
 ) -> RigParameters:
     law = Interface(
         kinetic_n_mm_per_mm=level,
         stiffness_n_mm_per_rad_per_mm=level / math.radians(twist_deg),
         contact=_fading(slip_deg, left),
     )
-    return replace(rig, free=FreeLaw(throughout=(law,)))
+    return replace(rig, free=acting(law))
