@@ -70,7 +70,7 @@ def _angle(
         places=places,
         says="tip_angle",
         title=where,
-        curve=partial(_over_angles, shown_deg(ranges), waves),
+        curve=partial(over_angles, shown_deg(ranges), waves),
         x_unit="deg",
         unit="N mm" if tip else "N mm / mm",
     )
@@ -153,7 +153,7 @@ def _uneven_damping(ranges: LogRanges) -> Family:
 
 
 def _damping_over_angles(shown: Array, beta: float, *c: float) -> Points:
-    angle, waves = _over_angles(shown, ALONG, *_kept_below(beta, c))
+    angle, waves = over_angles(shown, ALONG, *_kept_below(beta, c))
     return angle, beta + np.asarray(waves)
 
 
@@ -214,7 +214,7 @@ def _level_and_waves(level: Parameter) -> tuple[Parameter, ...]:
 
 
 def _friction_over_angles(shown: Array, level: float, *c: float) -> Points:
-    angle, waves = _over_angles(shown, ALONG, *c)
+    angle, waves = over_angles(shown, ALONG, *c)
     return angle, level + _sum_of_sizes(c) + np.asarray(waves)
 
 
@@ -237,19 +237,20 @@ def _friction_wave(cycles: int, sine: float, cosine: float) -> Interface:
     )
 
 
-def _over_angles(shown: Array, waves: Sequence[int], *c: float) -> Points:
+def over_angles(shown: Array, waves: Sequence[int], *c: float) -> Points:
+    """The sum of waves with these cycles in a turn, sine and cosine of each, over angles, deg."""
     angle = np.radians(shown)
     each = zip(waves, c[::2], c[1::2], strict=True)
     waves = [a * np.sin(n * angle) + b * np.cos(n * angle) for n, a, b in each]
     return shown, np.sum(waves, axis=0)
 
 
-def shown_deg(ranges: LogRanges) -> Array:
-    """Angles of a turn that the base has been at: of others a log says nothing."""
+def shown_deg(ranges: LogRanges, shown: int = _SHOWN) -> Array:
+    """So many angles of a turn that the base has been at: of others a log says nothing."""
     low, high = ranges.ends[Variable.BASE_ANGLE]
     if high - low >= 2.0 * _HALF_TURN_DEG:
         low, high = -_HALF_TURN_DEG, _HALF_TURN_DEG
-    return np.linspace(low, high, _SHOWN)
+    return np.linspace(low, high, shown)
 
 
 def _apply_angle(waves: Sequence[int], tip: bool, rig: RigParameters, *c: float) -> RigParameters:
