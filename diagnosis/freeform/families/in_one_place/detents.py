@@ -2,7 +2,7 @@
 
     torque = sum over m = 1 .. 4 of a_m sin(m n angle) + b_m cos(m n angle)
 
-n times in a turn, for several n: narrow wells, of which one to four waves per turn (angle.py) see little.
+n times in a turn, for several n: narrow wells, which one to four waves per turn (angle.py) miss.
 """
 
 from dataclasses import replace
