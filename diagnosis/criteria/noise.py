@@ -50,9 +50,10 @@ COLOUR_WEAK_CHI_SQUARE = 10.0
 """Chi-square that is enough where only that explains the log (derived: once in 150 sensors)."""
 COLOUR_WEAK_GAP = 1.3
 """What white noise may leave of such a colour: that of half of the variance leaves 1.4."""
-FLICKER_GAP = 1.1
-"""Residual that a leading explanation may leave in noise of 1/f before it is fitted in it: a needle that
-lacks nothing else left 1.00 and 1.05 in two such logs, and 1.1 is what is asked of free-form laws."""
+OTHER_COLOUR_GAP = 1.1
+"""Residual that a leading explanation may leave in noise of 1/f, or of a colour that shows less, before
+it is fitted in it: a needle that lacks nothing else left 1.00 and 1.05 in two such logs, and 1.1 is what
+is asked of free-form laws."""
 FLICKER_ABOVE_HZ = 0.5
 """The frequency from which on noise of 1/f is looked for that begins near 1 Hz: three waves of it in
 windows of 6 s."""

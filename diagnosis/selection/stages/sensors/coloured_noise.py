@@ -20,7 +20,7 @@ from diagnosis.criteria.noise import (
     COLOUR_WEAK_GAP,
     FLICKER_ABOVE_HZ,
     FLICKER_COMMON_SIGMA,
-    FLICKER_GAP,
+    OTHER_COLOUR_GAP,
 )
 from diagnosis.criteria.selection import DRIFT_MOST_EFFECTS
 from diagnosis.fitting.noise_reestimation import flicker_left, with_colour
@@ -77,7 +77,7 @@ def weakly_coloured_noise(state: SearchState, workers: Workers) -> SearchState:
         return state
     asked = replace(state.problem.noise, colour_chi_square=COLOUR_WEAK_CHI_SQUARE)
     noise = with_colour(replace(state.problem, noise=asked), state.best.fit)
-    if noise.same(state.problem.noise):
+    if noise.same(state.problem.noise) or not _may_explain(state.renoised(noise), apart=False):
         return state
     return _kept_if_it_explains(WEAK, state, noise, workers)
 
@@ -152,7 +152,7 @@ def _may_explain(state: SearchState, *, apart: bool) -> bool:
     """
     best = min((c.fit for c in state.candidates), key=lambda fit: fit.gap)
     alike = abs(common_part(state.problem, best)) > FLICKER_COMMON_SIGMA if apart else False
-    return best.gap <= FLICKER_GAP and not alike
+    return best.gap <= OTHER_COLOUR_GAP and not alike
 
 
 def _kept_if_it_explains(

@@ -7,7 +7,12 @@ import pytest
 from diagnosis_fixtures import TIP, TORQUE, log_of, start_of_search
 from scipy.signal import lfilter
 
-from diagnosis.criteria.noise import COLOUR_ABOVE_HZ, COLOUR_CHI_SQUARE
+from diagnosis.criteria.noise import (
+    COLOUR_ABOVE_HZ,
+    COLOUR_CHI_SQUARE,
+    COLOUR_WEAK_GAP,
+    OTHER_COLOUR_GAP,
+)
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.log.trial import Trial
@@ -70,6 +75,21 @@ def test_a_colour_that_shows_less_is_allowed_for_where_only_that_explains_the_lo
     assert set(after.problem.noise.colour) == {"tip_angle_deg"}
     assert after.problem.noise.colour_chi_square < COLOUR_CHI_SQUARE
     assert module.weakly_coloured_noise(after, Workers()).problem is after.problem  # it is explained
+
+
+def test_a_weaker_colour_that_leaves_more_than_noise_is_not_fitted():
+    """The torque is off by 0.8 sigma besides, which no colour of the tip's noise explains."""
+    log = weakly_coloured(0.25)
+    (one,) = log.trials
+    table = one.table.assign(base_torque_n_mm=one.table["base_torque_n_mm"] + 0.008)
+    log = replace(log, trials=(Trial(name=one.name, table=table),))
+    state = module.nominal_rig(start_of_search(log, effects=()), Workers())
+    plain = replace(state.problem.noise, colour={}, colour_chi_square=np.inf)
+    state = state.renoised(replace(plain, sigma={**plain.sigma, "tip_angle_deg": TIP}))
+    assert OTHER_COLOUR_GAP < state.best.fit.gap < COLOUR_WEAK_GAP
+    after = module.weakly_coloured_noise(state, Workers())
+    assert after.problem is state.problem
+    assert not any(entry.stage == module.WEAK for entry in after.record)
 
 
 def test_what_an_effect_leaves_is_no_noise():
