@@ -1,6 +1,6 @@
 """What a search has come to: the problem, fine and coarse, what was fitted, and the record."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from diagnosis.fitting.decimation import decimated_noise
@@ -13,6 +13,10 @@ from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import Checked, check
 from diagnosis.selection.fitting import Made
 from diagnosis.selection.record import RecordEntry
+
+Candidates = tuple[Candidate, ...]
+Convert = Callable[[Fit, FitProblem, FitProblem], Fit]
+"""A fit of a problem, in units of another one, from both."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -81,13 +85,27 @@ class SearchState:
         """The state in units of another noise."""
         fine, coarse = self.problem, self.coarse
         rare = decimated_noise(noise, fine.log, coarse.log)
+        return self.converted(
+            replace(fine, noise=noise),
+            replace(coarse, noise=rare),
+            lambda fit, before, after: rescaled(fit, before, after.noise),
+        )
+
+    def converted(self, fine: FitProblem, coarse: FitProblem, convert: Convert) -> "SearchState":
+        """The state of other problems, with all that was fitted in units of them."""
+
+        def each(found: Sequence[Candidate], before: FitProblem, after: FitProblem) -> Candidates:
+            return tuple(candidate(convert(c.fit, before, after)) for c in found)
+
         return replace(
             self,
-            problem=replace(fine, noise=noise),
-            coarse=replace(coarse, noise=rare),
-            nominal=rescaled(self.nominal, fine, noise),
-            candidates=tuple(candidate(rescaled(c.fit, fine, noise)) for c in self.candidates),
-            singles=tuple(candidate(rescaled(c.fit, coarse, rare)) for c in self.singles),
+            problem=fine,
+            coarse=coarse,
+            nominal=convert(self.nominal, self.problem, fine),
+            candidates=each(self.candidates, self.problem, fine),
+            singles=each(self.singles, self.coarse, coarse),
+            pairs=each(self.pairs, self.coarse, coarse),
+            triples=each(self.triples, self.coarse, coarse),
         )
 
     def noting(self, *entries: RecordEntry) -> "SearchState":

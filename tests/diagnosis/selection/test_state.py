@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import FITTED_SAMPLES, fit_of, log_of, scored, start_of_search
 
+from diagnosis.fitting.fit import fit_effects
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection.candidate import candidate
@@ -39,6 +40,15 @@ def test_in_units_of_another_noise_residuals_shrink_and_the_needle_is_the_same(s
         np.testing.assert_allclose(other, one / 2.0)
     rare = {s: again.coarse.noise[s] / start.coarse.noise[s] for s in ("tip_angle_deg",)}
     assert rare["tip_angle_deg"] == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("sets", ["singles", "pairs", "triples"])
+def test_what_was_fitted_to_the_decimated_log_is_in_units_of_another_noise_too(start, sets):
+    fitted = candidate(fit_effects(start.coarse, ("tip_drag",)))
+    noise = start.problem.noise
+    twice = type(noise)(sigma={s: 2.0 * own for s, own in noise.sigma.items()}, white=noise.white)
+    (again,) = getattr(replace(start, **{sets: (fitted,)}).renoised(twice), sets)
+    assert again.fit.gap == pytest.approx(0.5 * fitted.fit.gap)
 
 
 def test_where_the_same_noise_is_coloured_otherwise_fits_are_kept_in_its_units(undisturbed):

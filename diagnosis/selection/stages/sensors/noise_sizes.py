@@ -3,7 +3,7 @@
 Samples count by what their noise is; what was fitted before is in units of that.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +14,6 @@ from diagnosis.fitting.noise_reestimation import by_trial_and_sensor
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.noise.varying_noise import VaryingNoise
 from diagnosis.prepare.prepared_log import PreparedTrial
-from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.stages.stage import leading_fitted_again
 from diagnosis.selection.state import SearchState
@@ -61,20 +60,10 @@ def with_varying_noise(stage: str, state: SearchState, find: Find, workers: Work
 
 def _with_sizes(state: SearchState, found: Found) -> SearchState:
     """The state with weights of the samples, and what was fitted in units of them."""
-    fine, coarse = _weighted(state.problem, found), _weighted(state.coarse, found)
-
-    def again(own: Sequence[Candidate], of: FitProblem) -> tuple[Candidate, ...]:
-        return tuple(candidate(_reweighted(c.fit, of, found)) for c in own)
-
-    return replace(
-        state,
-        problem=fine,
-        coarse=coarse,
-        nominal=_reweighted(state.nominal, state.problem, found),
-        candidates=again(state.candidates, state.problem),
-        singles=again(state.singles, state.coarse),
-        pairs=again(state.pairs, state.coarse),
-        triples=again(state.triples, state.coarse),
+    return state.converted(
+        _weighted(state.problem, found),
+        _weighted(state.coarse, found),
+        lambda fit, before, _: _reweighted(fit, before, found),
     )
 
 

@@ -137,7 +137,8 @@ def _without(state: SearchState, found: Sequence[_Readings]) -> SearchState:
     problem = replace(
         state.problem, log=replace(state.problem.log, trials=tuple(_less(t, left_out) for t in trials))
     )
-    kept = [~np.concatenate([one.off for one in found if one.trial == trial.name]) for trial in trials]
+    read = ([one.off for one in found if one.trial == trial.name] for trial in trials)
+    kept = [~np.concatenate(off or [np.zeros(0, bool)]) for off in read]
     nominal = _of_rows(state.nominal, kept)
     return replace(
         state,

@@ -186,13 +186,13 @@ def _refitted(
     )
     contenders = [*leading_sets(state.singles), *leading_sets(state.pairs)]
     calls = [(coarse, c.names, coarse.parameterization(c.names).joined(c.fit.parts)) for c in contenders]
-    start = SearchState(
+    start = replace(
+        state,
         problem=fine,
         coarse=coarse,
-        effects=state.effects,
-        nominal=state.nominal,
-        singles=state.singles,
-        pairs=state.pairs,
+        candidates=(),
+        triples=(),
+        checked=None,
         record=(*jumping.record, noted(STAGE, Decision.MADE, effect.title)),
     )
     known = {c.names for c in contenders}

@@ -52,6 +52,14 @@ def test_outliers_beside_the_best_are_left_out_and_told():
     assert after.best.fit.by_trial[0].size == before.best.fit.by_trial[0].size - 5
 
 
+def test_a_trial_without_readings_is_no_hindrance():
+    log = off(log_of(NOMINAL, seconds=12.0), [700, 701, 702, 703, 1100], [17, 16, 11, 10, -30])
+    (one,) = log.trials
+    blind = Trial(name="trial_02.csv", table=one.table.drop(columns=[TIP, TORQUE]))
+    _, after = searched(replace(log, trials=(one, blind)))
+    assert [len(own.times_s) for own in after.left_out] == [5]
+
+
 def test_a_log_that_is_explained_is_left_alone():
     before, after = searched(log_of(NOMINAL, seconds=12.0))
     assert after.problem is before.problem

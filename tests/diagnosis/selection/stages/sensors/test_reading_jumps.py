@@ -7,6 +7,7 @@ import pytest
 from diagnosis_fixtures import joined, log_of, start_of_search
 
 from diagnosis.fitting.fit import fit_effects
+from diagnosis.log.faults.left_out import LeftOut
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import BASE, Trial
 from diagnosis.prepare.noise.noise_colour import NoiseColour
@@ -78,6 +79,15 @@ def test_an_effect_that_the_jump_has_hidden_is_found_beside_it():
     assert after.best.floor.reached
     assert after.best.names == ("coulomb_friction",)
     assert len(after.best.fit.parameterization.rig(after.best.fit.x).jumps) == 1
+
+
+def test_readings_that_were_left_out_stay_so_beside_a_jump():
+    """As where outliers are left out first; the report leaves out what the verdict did."""
+    left_out = (LeftOut(trial="trial_01.csv", sensor=TIP, times_s=np.array([1.0]), samples=100),)
+    before = replace(hidden(off(two(DRY), TIP, (5.0, 60.0))), left_out=left_out, open_effects=("x",))
+    after = jumps_of_readings(before, Workers())
+    assert after.best.floor.reached
+    assert (after.left_out, after.open_effects) == (left_out, ("x",))
 
 
 def test_what_passed_for_coloured_noise_is_white_where_the_effect_is_found():
