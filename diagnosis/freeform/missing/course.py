@@ -16,7 +16,8 @@ def course_of(law: Law) -> str:
     """The course of a law, in words, where the log determines it."""
     own = "" if law.unit == "-" else f" {law.unit}"
     if law.variable == "event":
-        change = f"by {law.y[-1]:.3g}{own}" if own else f"{law.y[-1]:.3g} times as large"
+        after = law.y[2]  # the level that the first change comes to
+        change = f"by {after:.3g}{own}" if own else f"{after:.3g} times as large"
         return f"{law.title}, {change} at {0.5 * (law.x[1] + law.x[2]):.2f} {law.x_unit}"
     if law.variable == "direction":
         return f"{law.title} {_by_direction(law.y[0], law.y[-1], own)}"

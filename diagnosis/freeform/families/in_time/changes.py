@@ -48,11 +48,12 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 def changes_of(ranges: LogRanges) -> tuple[tuple[Moment, tuple[str, ...]], ...]:
     """The largest change that stays, with the trials that follow it; and that of one trial alone.
 
-    Of one that stays in the last trial, which none follow, both are the same.
+    One that stays in the last trial, which none follow, is of that trial alone: the larger one counts.
     """
-    for_good, once = (largest_change(ranges, stays=stays) for stays in (True, False))
+    (kept, for_good), (gain, once) = (_gain_and_moment(ranges, stays) for stays in (True, False))
     after = trials_after(ranges, for_good) if for_good else ()
-    found = [(for_good, after), (once, ())] if after else [(for_good or once, ())]
+    larger = for_good if kept > gain else once
+    found = [(for_good, after), (once, ())] if after else [(larger, ())]
     return tuple((moment, trials) for moment, trials in found if moment)
 
 
@@ -62,6 +63,11 @@ def largest_change(ranges: LogRanges, *, stays: bool = True) -> Moment | None:
     Args:
       stays: whether it is changed in the trials that follow, too.
     """
+    return _gain_and_moment(ranges, stays)[1]
+
+
+def _gain_and_moment(ranges: LogRanges, stays: bool) -> tuple[float, Moment | None]:
+    """What the largest change takes off, in cost, and when it is."""
     best, found, along, size = 0.0, None, 0.0, 0.0
     trials = ranges.problem.log.trials
     for number in reversed(range(len(trials))):
@@ -78,7 +84,7 @@ def largest_change(ranges: LogRanges, *, stays: bool = True) -> Moment | None:
             best, found = float(gain[at]), Moment(trial=trials[number].name, time_s=float(time_s[at]))
         if stays:
             along, size = along + float(product.sum()), size + float(square.sum())
-    return found
+    return best, found
 
 
 def in_time(ranges: LogRanges, number: int, *, of_damping: bool = True) -> tuple[Array, Array, Array]:

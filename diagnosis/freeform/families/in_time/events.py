@@ -31,6 +31,7 @@ Array = NDArray[np.float64]
 
 _SHORTEST_S, _USUAL_S, _LONGEST_S = 0.01, 0.3, 1.0  # that a step takes
 _MOVES_S = 1.5  # at the most, from where it is looked for first
+_SHOWN_AFTER_S = 2.0  # of the curve of an event
 _SAME = 1e-3  # durations whose range is less, of their mean, are one
 DIFFERENCES = (0.3, 0.1, 3e-2)
 """Steps of derivatives by time, duration and size."""
@@ -77,7 +78,7 @@ def how_and_where(moment: Moment, after: Sequence[str]) -> tuple[str, str]:
     return ("for good", f"from {moment.trial} on") if after else ("once", f"in {moment.trial}")
 
 
-def times_of(moment: Moment, usual_s: float = _USUAL_S) -> tuple[Parameter, Parameter]:
+def times_of(moment: Moment) -> tuple[Parameter, Parameter]:
     """Parameters of an event: when it is, and how long it takes."""
     low, high = max(0.0, moment.time_s - _MOVES_S), moment.time_s + _MOVES_S
     when = Parameter(
@@ -88,7 +89,7 @@ def times_of(moment: Moment, usual_s: float = _USUAL_S) -> tuple[Parameter, Para
         unit="s",
         low=_SHORTEST_S,
         high=_LONGEST_S,
-        start=(usual_s,),
+        start=(_USUAL_S,),
         logarithmic=True,
         neutral=None,
     )
@@ -158,7 +159,7 @@ def _stepped(time_s: float, duration_s: float, step: float) -> Points:
 def change_between(time_s: float, duration_s: float, before: float, after: float) -> Points:
     """The curve of an event, from the start of its trial."""
     begins, ends = around(time_s, duration_s)
-    return (0.0, begins, ends, time_s + 2.0), (before, before, after, after)
+    return (0.0, begins, ends, ends + _SHOWN_AFTER_S), (before, before, after, after)
 
 
 def around(time_s: float, duration_s: float) -> tuple[float, float]:
@@ -225,7 +226,7 @@ class _EveryTrial:
         )
         found = self.off_line.T @ self.found_s
         off = zip(coordinates(0, found.size), found, strict=True)
-        return (*line, *(replace(p, start=(float(v), 0.0), neutral=None) for p, v in off))
+        return (*line, *(_starting_at(p, float(found)) for p, found in off))
 
     def _robust_line(self) -> tuple[float, ...]:
         if self.line.shape[1] == 1:
@@ -237,6 +238,12 @@ class _EveryTrial:
         """When it is in each trial."""
         own = np.concatenate([self.line, self.off_line], axis=1)
         return np.asarray(np.maximum(own @ np.array(c), 0.0))
+
+
+def _starting_at(parameter: Parameter, found: float) -> Parameter:
+    """A coordinate that starts from what was found, or from none, with its range about both."""
+    low, high = parameter.low + min(found, 0.0), parameter.high + max(found, 0.0)
+    return replace(parameter, start=(found, 0.0), low=low, high=high, neutral=None)
 
 
 def _steps(

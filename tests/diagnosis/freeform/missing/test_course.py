@@ -54,6 +54,16 @@ def test_a_step_is_told_with_its_place(x, y, said):
     assert said in course_of(law)
 
 
+def test_an_event_that_passes_is_told_by_the_level_that_it_comes_to():
+    """Tissue that gives way, and recovers; a step one way, and back."""
+    time_s = (-1.0, 4.9, 5.1, 6.0, 9.0)
+    event = replace(LAW, variable="event", x=time_s, low=time_s, high=time_s, x_unit="s")
+    recovers = replace(event, y=(1.0, 1.0, 0.4, 0.7, 1.0), unit="-")
+    assert "0.4 times as large at 5.00 s" in course_of(recovers)
+    back = replace(event, y=(0.0, 0.0, 5.0, 5.0, 0.0), unit="deg")
+    assert "by 5 deg at 5.00 s" in course_of(back)
+
+
 def test_a_law_of_one_layer_is_not_told_as_none_where_its_level_is_uncertain():
     """Nothing outside of the layer is certain; the level in it is known to a factor."""
     y, high = (0.0, 0.0, 0.004, 0.004, 0.0), (0.0, 0.0, 0.02, 0.02, 0.0)

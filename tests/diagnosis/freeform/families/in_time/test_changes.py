@@ -8,7 +8,8 @@ from diagnosis_fixtures import RIG, prepared, trial, turns
 from free_forms import covered_by
 
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.families.in_time.changes import families, largest_change
+from diagnosis.freeform.families.in_time.changes import changes_of, families, largest_change
+from diagnosis.freeform.families.in_time.events import trials_after
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
@@ -48,6 +49,18 @@ def test_a_change_that_ends_with_its_trial_is_found_there(at_s, number):
     assert once.effect.trial == found.trial
     (only,) = once.effect.apply(NOMINAL, at_s, 0.1, 0.5).free.curves
     assert only.trial == found.trial
+
+
+@pytest.mark.parametrize(("early", "late", "told"), [(8.0, -5.0, 1), (3.0, -8.0, 3)])
+def test_where_nothing_follows_what_stays_the_larger_change_of_one_trial_counts(early, late, told):
+    """One in the first trial that is over, and one in the last, the other way: that stays."""
+    rng = np.random.default_rng(3)
+    sizes = (early * (TIME > 3.0), 0.0 * TIME, late * (TIME > 3.0))
+    tips = [size * CHANGE + rng.normal(0, 0.25, TIME.size) for size in sizes]
+    ranges = covered_by([(ANGLE, tip, (REST, REST)) for tip in tips], softer=[(CHANGE, REST)] * 3)
+    assert trials_after(ranges, largest_change(ranges)) == ()
+    ((moment, after),) = changes_of(ranges)
+    assert (moment.trial, after) == (f"trial_{told:02d}.csv", ())
 
 
 def test_a_trial_without_readings_tells_nothing():

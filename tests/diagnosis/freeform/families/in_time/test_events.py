@@ -6,7 +6,7 @@ from diagnosis_fixtures import turns
 from free_forms import covered, covered_by
 
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.families.in_time.events import around, events, families
+from diagnosis.freeform.families.in_time.events import around, change_between, events, families
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(8.0)
@@ -128,6 +128,24 @@ def test_a_step_in_every_trial_begins_at_a_time_of_its_own(at_s, lasting):
     names = [f"trial_{i + 1:02d}.csv" for i in range(len(at_s))]
     expected = dict(zip(names, at_s, strict=True))
     assert times_of(family, started(family, 0)) == pytest.approx(expected, abs=0.1)
+
+
+def test_times_that_are_far_off_a_line_are_in_the_range_of_its_coordinates():
+    """Steps at 5, 50 and 30 s of trials of 60 s: a fit starts where they were found, and may move."""
+    angle, rng = turns(60.0), np.random.default_rng(2)
+    time, still = 0.01 * np.arange(angle.size), (angle, np.zeros(angle.size))
+    at_s = {"trial_01.csv": 5.0, "trial_02.csv": 50.0, "trial_03.csv": 30.0}
+    tips = (angle + rng.normal(0, 0.25, angle.size) + 3.0 * (time > at) for at in at_s.values())
+    family = families(covered_by([(angle, tip, still) for tip in tips]))[-1]
+    begin = started(family, 0)
+    assert times_of(family, begin) == pytest.approx(at_s, abs=0.1)
+    each = zip(family.effect.parameters, begin, strict=True)
+    assert all(p.low < start < p.high for p, start in each)
+
+
+def test_the_curve_of_a_slow_event_is_told_in_the_order_of_time():
+    x, y = change_between(10.0, 8.0, 0.0, 1.0)
+    assert (x, y) == ((0.0, 6.0, 14.0, 16.0), (0.0, 0.0, 1.0, 1.0))
 
 
 def test_times_in_proportion_to_the_trials_need_no_coordinates_but_those_of_a_line():
