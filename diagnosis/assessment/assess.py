@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ from diagnosis.assessment.uncertainty.intervals import Interval, covariance, int
 from diagnosis.assessment.uncertainty.joint_uncertainty import JointUncertainty, joint_uncertainty
 from diagnosis.assessment.uncertainty.partitions import by_motion, trial_by_trial
 from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart, values_by_part
+from diagnosis.fitting.held_out.cross_validation import information
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
@@ -45,11 +47,14 @@ from diagnosis.workers import Failure, Workers
 from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 
 TO_ITS_END = "diagnose this log to its end first: what was not tried may explain it as well, or better"
 """In place of a next experiment where the search was cut short."""
 FINER, REPLICATES = "numerical error", "noise of the base angle in the intervals"
 LIMITS, NEXT = "detection limits", "next experiment"
+_NO_PARTS: tuple[tuple[ValuesByPart, ...], ...] = ()
+ORDER = "order of the effects by strength"
 TWIST, BY_PART = "twist along the shaft", "values by trial and motion"
 """Parts that a stop leaves out."""
 
@@ -128,25 +133,28 @@ def assess(
     before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
     left = trial_residuals(log, explained, problem.noise)
     where = residual_breakdown(before), residual_breakdown(left)
-    named = verdict.effects or strongest_first(problem, near)
+    tried = _Attempts()
+    named = verdict.effects or tried.or_else(ORDER, lambda: strongest_first(problem, near), near.named)
     spread_of = workers.begin(partial(covariance, problem, near.fit, change, left=_above_noise(near)))
     twist_of = workers.begin(_twist, problem, near, named, largest_moment(before))
     beside = further()
     with_one_more = gap_with_one_more(verdict.best.fit, beside) if beside else {}
-    spread = spread_of()
+    spread = tried.or_else(REPLICATES, spread_of, _inverse_information(near))
     if stop.due:
         stop.leave_out(REPLICATES)
     own = intervals(near.fit, spread)
     accepted = {e: p for e, p in own.items() if e in verdict.effects}
     advice_of = workers.begin(_advice, coarse, verdict, *where, accepted) if complete else None
     limits = _limits(coarse, verdict, beside, effects, workers) if beside else {}
+    advice = tried.or_else(NEXT, lambda: _next_experiment(verdict, advice_of, stop), "")
+    by_parts = tried.or_else(BY_PART, lambda: _by_parts(problem, near, verdict, stop), _NO_PARTS)
     plain = problem.noise.uncoloured
     gap = gap_reduction(
         nominal_residuals(replace(problem, noise=plain), nominal), in_units_of(problem, after, plain)
     )
     return Assessment(
         gap=gap,
-        nearest=nearest_of(near, named, own, gap, *_by_parts(problem, near, verdict, stop)),
+        nearest=nearest_of(near, named, own, gap, *by_parts),
         breakdown=where[0],
         breakdown_after=where[1],
         shape=residual_shape(before),
@@ -156,7 +164,7 @@ def assess(
         sensors=sensor_errors(problem, rig, predictions, own),
         with_one_more=with_one_more,
         detection_limits=limits,
-        next_experiment=_next_experiment(verdict, advice_of, stop) if advice_of else TO_ITS_END,
+        next_experiment=advice,
         numerical_error=error,
         explained=explained,
         twist=stop.unless_due(TWIST, twist_of),
@@ -164,10 +172,30 @@ def assess(
             *problem.log.warnings,
             *numerical_warnings(error),
             *lost,
+            *tried.warnings,
             *moved_by_hidden(limits, accepted),
             *_bound_warnings(near.fit.status.at_bound),
         ),
     )
+
+
+class _Attempts:
+    """What is told beside a verdict, which stands where that cannot be simulated.
+
+    Attributes:
+      warnings: what could not be, and why.
+    """
+
+    def __init__(self) -> None:
+        self.warnings: list[str] = []
+
+    def or_else(self, what: str, make: Callable[[], T], otherwise: T) -> T:
+        """What `make` returns, or something else and a warning where that cannot be simulated."""
+        try:
+            return make()
+        except SimulationFailed as error:
+            self.warnings.append(f"{what}: could not be simulated ({error})")
+            return otherwise
 
 
 def _advice(
@@ -183,9 +211,11 @@ def _advice(
 
 
 def _next_experiment(
-    verdict: Verdict, advice_of: Callable[[], tuple[str, bool]], stop: StopSignal
+    verdict: Verdict, advice_of: Callable[[], tuple[str, bool]] | None, stop: StopSignal
 ) -> str:
     """The next experiment in words; after a stop, what to change stands alone."""
+    if advice_of is None:
+        return TO_ITS_END
     advice, whole = advice_of()
     if not whole and verdict.kind in (VerdictKind.EXPLAINED, VerdictKind.UNDECIDED):
         stop.leave_out(NEXT)
@@ -235,6 +265,11 @@ def _bound_warnings(at_bound: Sequence[str]) -> tuple[str, ...]:
         "value and interval mean little"
         for parameter in at_bound
     )
+
+
+def _inverse_information(best: Candidate) -> Array:
+    """The covariance without what the noise of the base and of the replay add."""
+    return np.asarray(np.linalg.pinv(information(best.fit)), float)
 
 
 def _above_noise(best: Candidate) -> float:

@@ -22,6 +22,7 @@ from diagnosis.criteria.assessment import DETECTION_SIGMA
 from diagnosis.criteria.fitting import SCATTER
 from diagnosis.criteria.selection import SECOND_LEAVES, SIMPLE_LEAD
 from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.projection import Projection
@@ -81,7 +82,7 @@ def detection_limit(coarse: FitProblem, best: Fit, base: Fit, name: str) -> tupl
     parameters, share = coarse.library[name].parameters, 1.0
     for _ in range(_ROUNDS):
         values = [p.towards_neutral(p.start[0], share) for p in parameters]
-        if share > 1 and not all(p.low <= v <= p.high for p, v in zip(parameters, values, strict=True)):
+        if _beyond_bounds(parameters, share):
             return name, DetectionLimit(parameters={})
         own = np.array([p.to_fit(v) for p, v in zip(parameters, values, strict=True)])
         rig = parameterization.rig(parameterization.joined(base.parts | {name: own}))
@@ -89,10 +90,18 @@ def detection_limit(coarse: FitProblem, best: Fit, base: Fit, name: str) -> tupl
         more = asked / max(float(np.linalg.norm(projection.beyond(runs))), 1e-9)
         more = float(np.clip(more, 1 / _MOST, _MOST))
         share *= more
+    if _beyond_bounds(parameters, share):
+        return name, DetectionLimit(parameters={})
     return name, DetectionLimit(
         parameters={p.name: p.towards_neutral(p.start[0], share) for p in parameters if p.reported},
         beside=_reported(base, base.x + more * projection.answer(runs)),
     )
+
+
+def _beyond_bounds(parameters: Sequence[Parameter], share: float) -> bool:
+    """Whether an effect that is so many times as strong as at its start is beyond its range."""
+    values = ((p, p.towards_neutral(p.start[0], share)) for p in parameters)
+    return share > 1.0 and not all(p.low <= value <= p.high for p, value in values)
 
 
 def _reported(fit: Fit, x: Array) -> dict[str, dict[str, float]]:

@@ -43,6 +43,13 @@ to two thirds."""
 FINAL_NUMBERS = 90
 """Numbers that free-form laws may have in all that go to the log itself, if they are more than two: each
 is a simulation of it. A choice that saves time."""
+OTHER_FORM_PROMISING = 0.998
+"""Share of the cost that one step has to leave at most, from an effect to a law of another form, before
+that is fitted to its end. A choice that saves time: SECOND_LEAVES is asked for in the end."""
+PLAIN_LAW_DETERMINED = 100.0
+"""Variance of what a plain law predicts of a trial by the others, in that of the noise, mean over the
+trial, up to which they determine it; else its curve predicts, whose prior knows how little they tell. A
+choice."""
 PLAINER_LEAVES = 1.02
 """Residual of a set of fewer parameters over that of the best, up to which it is told as the nearest
 explanation where both are above FAR_GAP: far above the noise a likelihood that knows noise alone prefers

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria.fitting import SCATTER
+from diagnosis.criteria.freeform import OTHER_FORM_PROMISING
 from diagnosis.criteria.selection import SECOND_LEAVES
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.effects.effect import Parameter
@@ -44,7 +45,6 @@ from diagnosis.workers import Task, Workers
 Array = NDArray[np.float64]
 
 STAGE = "other forms of a law"
-PROMISING = 0.998  # of the cost, after one step
 _NEARLY_STRAIGHT = {STRAIGHT: 0.5, REST: 0.1}  # priors of the parts of a curve
 _WEAK = 0.05  # times the first start of a level
 
@@ -160,7 +160,9 @@ class _Comparison:
         begun = {self.family.name: _begun(self.known, self.coarse, self.replaced, self.family)}
         if len(names) == len(self.known.names) and self._starts_as_the_effect():
             form = _from(self.known, names, straight, begun, iterations=1)
-            return None if form.cost > PROMISING * self.known.cost else _from(form, names, own)
+            return (
+                None if form.cost > OTHER_FORM_PROMISING * self.known.cost else _from(form, names, own)
+            )
         form = _from(self.known, names, own, begun, enough=enough)
         if form.cost <= enough:
             return form

@@ -237,12 +237,11 @@ def _friction_wave(cycles: int, sine: float, cosine: float) -> Interface:
     )
 
 
-def over_angles(shown: Array, waves: Sequence[int], *c: float) -> Points:
+def over_angles(shown: Array, waves: Sequence[float], *c: float) -> Points:
     """The sum of waves with these cycles in a turn, sine and cosine of each, over angles, deg."""
     angle = np.radians(shown)
     each = zip(waves, c[::2], c[1::2], strict=True)
-    waves = [a * np.sin(n * angle) + b * np.cos(n * angle) for n, a, b in each]
-    return shown, np.sum(waves, axis=0)
+    return shown, np.sum([a * np.sin(n * angle) + b * np.cos(n * angle) for n, a, b in each], axis=0)
 
 
 def shown_deg(ranges: LogRanges, shown: int = _SHOWN) -> Array:

@@ -94,7 +94,7 @@ def _damping_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> 
 
 
 def _damping(curve: SmoothCurve, beta: float, *c: float) -> Points:
-    return curve.places, beta * np.exp(curve.values(c))
+    return curve.places, beta * np.array(curve.factors(c))
 
 
 def _apply_damping(
@@ -127,7 +127,7 @@ def _friction_over(variable: Variable, ranges: LogRanges) -> Family:
 
 
 def _dry_level(curve: SmoothCurve, level: float, *c: float) -> Points:
-    return curve.places, level * np.exp(curve.values(c))
+    return curve.places, level * np.array(curve.factors(c))
 
 
 def _apply_friction(

@@ -21,6 +21,7 @@ from diagnosis.freeform.family import VISCOUS
 from diagnosis.freeform.law_curve import Law
 from diagnosis.freeform.likeness.shapes import LINE, OF_ANY, OF_BOTH_SIGNS, OF_RATE, Shape, of_angle
 from diagnosis.freeform.missing.words import VARIABLES
+from diagnosis.replay.variables import UNITS, Variable
 
 Array = NDArray[np.float64]
 
@@ -35,8 +36,7 @@ LIBRARY_LAWS = {
     (Place.INTERFACE, "rate", _DRY, "dry and viscous friction"): ("coulomb_friction",),
     (Place.INTERFACE, "rate", _DRY, "power law"): ("shear_thinning",),
     (Place.INTERFACE, "rate", _DRY, "Stribeck friction"): ("stiction",),
-    (Place.INTERFACE, "position", VISCOUS, "step"): ("layered_tissue",),
-    (Place.INTERFACE, "axial_speed", _DRY, "power law"): ("speed_dependent_friction",),
+    (Place.TISSUE, "position", VISCOUS, "step"): ("layered_tissue",),
     (Place.NEEDLE, "rate", "N mm", "dry and viscous friction"): ("tip_drag",),
     (Place.NEEDLE, "tip_angle", _DRY, "sine wave"): ("needle_curvature",),
     (Place.SENSOR, "tip_angle", "deg", "straight line"): ("tip_angle_scale", "tip_angle_bias"),
@@ -133,7 +133,7 @@ def _shapes_of(law: Law) -> tuple[Shape, ...]:
 def _of_variable(law: Law) -> tuple[Shape, ...]:
     x = np.array(law.x)
     either = OF_BOTH_SIGNS if x.min() < 0 < x.max() else ()
-    if law.variable == "rate":
+    if law.variable == "rate" and law.x_unit == UNITS[Variable.RATE]:  # not that of an acceleration
         return (*OF_RATE, *OF_ANY[:1])
     return (*OF_ANY, *either, *(of_angle(x) if law.variable in _ANGLES else ()))
 

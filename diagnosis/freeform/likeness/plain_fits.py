@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria.freeform import FAR_GAP
+from diagnosis.criteria.freeform import FAR_GAP, PLAIN_LAW_DETERMINED
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family, kind_of
@@ -34,7 +34,6 @@ STAGE = "plain laws"
 MOST_LAWS = 2
 MOST, SHAPES = 2, 4  # fits that are looked at, and plain laws that are tried of each, likeliest first
 ITERATIONS = 10  # on the decimated log
-DETERMINED = 100.0  # variance of a prediction, in that of the noise, mean over a trial
 
 
 def with_plain_laws(
@@ -88,6 +87,6 @@ def _each_by_what_is_determined(plain: FreeFit, curve: FreeFit) -> tuple[Array, 
         return plain.held_out
     each = zip(plain.held_out, curve.held_out, strict=True)
     determined = [
-        float(left_open(plain.fit, i).mean()) <= DETERMINED for i in range(len(plain.held_out))
+        float(left_open(plain.fit, i).mean()) <= PLAIN_LAW_DETERMINED for i in range(len(plain.held_out))
     ]
     return tuple(p if own else c for own, (p, c) in zip(determined, each, strict=True))

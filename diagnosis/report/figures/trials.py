@@ -72,7 +72,7 @@ def describe_trial(found: Diagnosis, i: int) -> str:
             left["nominal"].left.items(), left["explained"].left.values(), strict=True
         )
     )
-    seconds = float(found.log.trials[i]["time_s"][-1])
+    seconds = float(np.ptp(found.log.trials[i]["time_s"]))
     return (
         f"{found.log.trials[i].name} over {seconds:.0f} s: measured, nominal and "
         f"{label_of(found, 'explained')}, with residuals below. Residual of the nominal model, then of "

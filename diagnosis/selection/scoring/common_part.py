@@ -34,8 +34,9 @@ def _means(problem: FitProblem, fit: Fit) -> Iterator[Array]:
     """Means of both sensors in the blocks of each trial that has both, (2, B)."""
     for parts in by_trial_and_sensor(problem, fit.by_trial):
         if len(parts) == 2:
-            end_s = max(float(time_s[-1]) for _, time_s, _ in parts if time_s.size)
-            edges = np.arange(0.0, end_s + _BLOCK_S, _BLOCK_S)
+            read = [time_s for _, time_s, _ in parts if time_s.size]
+            begin_s, end_s = min(own[0] for own in read), max(own[-1] for own in read)
+            edges = np.arange(begin_s, end_s + _BLOCK_S, _BLOCK_S)
             count = np.array([np.histogram(time_s, edges)[0] for _, time_s, _ in parts])
             total = np.array([np.histogram(t, edges, weights=v)[0] for _, t, v in parts])
             known = (count >= _FEWEST).all(axis=0)

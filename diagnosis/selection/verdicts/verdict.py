@@ -8,11 +8,10 @@ undecided   another candidate, not a richer relative of the best, fits alike
 unknown     nothing that was tried brings the residual to the noise floor
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from diagnosis.effects import LIBRARY
 from diagnosis.selection.candidate import Candidate
 
 
@@ -61,8 +60,3 @@ def distinct(sets: Iterable[tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
     for names in sets:
         found.setdefault(frozenset(names), names)
     return tuple(found.values())
-
-
-def places(effects: Sequence[str]) -> str:
-    """Where the first of the accepted effects lives."""
-    return LIBRARY[effects[0]].place.value if effects else ""

@@ -109,6 +109,28 @@ def test_where_held_out_trials_cannot_be_simulated_the_gap_is_that_of_the_fit(lo
     assert "with the parameters from the others (lost its numbers)" in warning
 
 
+@pytest.mark.parametrize(
+    ("name", "lost"),
+    [
+        ("covariance", "noise of the base angle in the intervals"),
+        ("advise", "next experiment"),
+        ("strongest_first", "order of the effects by strength"),
+    ],
+)
+def test_a_verdict_stands_where_a_run_beside_it_cannot_be_simulated(
+    name, lost, log, nominal, fitted, monkeypatch
+):
+    monkeypatch.setattr(module, name, lambda *_, **__: failing())
+    if name == "strongest_first":  # which is asked for where nothing is accepted
+        monkeypatch.setattr(module, "advise", lambda *_: "look closer")
+        fitted = candidate(replace(fitted.fit, by_trial=tuple(3.0 * r for r in fitted.fit.by_trial)))
+    told = assessed(log, nominal, fitted)
+    assert f"{lost}: could not be simulated (lost its numbers)" in told.warnings
+    assert told.nearest.effects == ("coulomb_friction",)
+    level = told.nearest.parameters["coulomb_friction"]["level"]
+    assert level.low < level.value < level.high
+
+
 def test_where_the_best_cannot_be_simulated_coarsely_nothing_further_is_told(
     log, nominal, fitted, monkeypatch
 ):

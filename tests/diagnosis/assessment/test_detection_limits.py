@@ -79,6 +79,20 @@ def test_at_the_limit_an_effect_changes_what_is_asked(still):
     assert 0.97 * least < limit.parameters["bias"] < 1.5 * least
 
 
+def test_what_would_have_to_be_beyond_its_range_has_no_limit(still):
+    """The range ends at half of what would be seen: whatever is there goes unseen."""
+    coarse, fit = still
+    _, limit = detection_limit(coarse, fit, fit, "tip_angle_bias")
+    bias = LIBRARY["tip_angle_bias"]
+    (own,) = bias.parameters
+    for end in (0.5, 0.95, 1.05):
+        high = end * limit.parameters["bias"]
+        short = replace(bias, parameters=(replace(own, low=-high, high=high, start=(0.1 * high,)),))
+        within = replace(coarse, library={**coarse.library, "tip_angle_bias": short})
+        _, found = detection_limit(within, fit, fit, "tip_angle_bias")
+        assert (found.parameters != {}) is (end > 1.0)
+
+
 def test_an_effect_that_cannot_be_simulated_has_no_limit_and_the_others_do(still):
     def failing(*_):
         raise SimulationFailed("lost its numbers")

@@ -12,19 +12,16 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Place
-from diagnosis.freeform.families.angle import ALONG, shown_deg, waves_over
+from diagnosis.freeform.families.angle import ALONG, over_angles, shown_deg, waves_over
 from diagnosis.freeform.families.in_one_place.rubbing import SPOTS, Spot
 from diagnosis.freeform.families.in_one_place.tip import AT_TIP_MM
-from diagnosis.freeform.family import Family, Points, coordinates, most_probable
+from diagnosis.freeform.family import Family, coordinates, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
-
-Array = NDArray[np.float64]
 
 _QUARTER_DEG = 90.0
 _SLOW_WAVES = (1, 2, 3)
@@ -52,7 +49,7 @@ def _bent(spot: Spot, ranges: LogRanges) -> Family:
         places=spot.places,
         says=Variable.BASE_ANGLE,
         title=f"torque {spot.words}",
-        curve=partial(_over, ALONG, shown_deg(ranges)),
+        curve=partial(over_angles, shown_deg(ranges), ALONG),
         x_unit="deg",
         unit=spot.unit,
     )
@@ -78,7 +75,7 @@ def _wound(ranges: LogRanges, *, tip: bool) -> Family:
         places=_FIBRES,
         says="tip_angle",
         title=where,
-        curve=partial(_over, waves, farthest_deg * _SHOWN),
+        curve=partial(over_angles, farthest_deg * _SHOWN, waves),
         x_unit="deg",
         unit="N mm" if tip else "N mm / mm",
     )
@@ -87,9 +84,3 @@ def _wound(ranges: LogRanges, *, tip: bool) -> Family:
 def _apply_wound(waves: Sequence[float], tip: bool, rig: RigParameters, *c: float) -> RigParameters:
     laws = waves_over(waves, c)
     return replace(rig, free=FreeLaw(at_tip=laws) if tip else FreeLaw(throughout=laws))
-
-
-def _over(waves: Sequence[float], angle_deg: Array, *c: float) -> Points:
-    each = zip(waves, c[::2], c[1::2], strict=True)
-    angle = np.radians(angle_deg)
-    return angle_deg, np.sum([a * np.sin(n * angle) + b * np.cos(n * angle) for n, a, b in each], axis=0)

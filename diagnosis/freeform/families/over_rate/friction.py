@@ -116,7 +116,7 @@ def _friction(
     curve: SmoothCurve, rates: tuple[float, float], beta: float, level: float, *c: float
 ) -> Points:
     at = np.geomspace(*rates, curve.places.size)
-    return at, level + beta * at * np.exp(curve.values(c))
+    return at, level + beta * at * np.array(curve.factors(c))
 
 
 def _apply_rate(

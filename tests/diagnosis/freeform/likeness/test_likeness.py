@@ -29,7 +29,7 @@ def curve(x, y, half, *, variable, place=Place.INTERFACE, unit="-"):
         place=place,
         variable=variable,
         title="friction",
-        x_unit="-",
+        x_unit="rad/s" if variable == "rate" else "-",
         unit=unit,
         x=tuple(x),
         y=tuple(y),
@@ -147,7 +147,7 @@ def test_two_values_are_no_curve(variable):
         ("rate", Place.INTERFACE, DRY, lambda x: x**0.5, RATES, ("shear_thinning",)),
         ("rate", Place.INTERFACE, DRY, lambda x: 1 + np.exp(-((x / 0.1) ** 2)), RATES, ("stiction",)),
         ("rate", Place.DRIVE, "N mm", lambda x: x**0.5, RATES, ()),
-        ("position", Place.INTERFACE, VISCOUS, lambda x: 1.0 + (x > 0.5), PLACES, ("layered_tissue",)),
+        ("position", Place.TISSUE, VISCOUS, lambda x: 1.0 + (x > 0.5), PLACES, ("layered_tissue",)),
         ("position", Place.INTERFACE, DRY, lambda x: 1.0 + (x > 0.5), PLACES, ()),
         ("tip_angle", Place.NEEDLE, DRY, lambda x: np.sin(np.radians(x)), ANGLES, ("needle_curvature",)),
         ("tip_angle", Place.NEEDLE, "N mm", lambda x: np.sin(np.radians(x)), ANGLES, ()),
@@ -164,6 +164,13 @@ def test_two_values_are_no_curve(variable):
 def test_where_the_library_has_the_law_its_effect_is_named(variable, place, unit, law, x, effects):
     told = curve(x, law(x), 0.02, variable=variable, place=place, unit=unit)
     assert likeness_of(told).library == effects
+
+
+def test_a_torque_in_proportion_to_an_acceleration_is_no_damping():
+    inertia = curve(RATES, 0.5 + 2.0 * RATES, 0.02, variable="rate", place=Place.NEEDLE, unit="N mm")
+    assert likeness_of(inertia).library == ("tip_drag",)
+    told = likeness_of(replace(inertia, x_unit="rad/s^2"))
+    assert (told.shape, told.library) == (LINE, ())
 
 
 def test_numbers_of_a_law_have_the_units_of_its_curve():

@@ -36,6 +36,14 @@ def test_a_part_that_both_show_is_told_in_standard_deviations(problem):
     assert common_part(problem, left_of(problem, 0.8)) == pytest.approx(0.8 * np.sqrt(40), rel=0.2)
 
 
+@pytest.mark.parametrize("begin_s", [-30.0, 1e5])
+def test_it_does_not_hang_on_when_a_clock_was_set_to_zero(problem, begin_s):
+    trials = (replace(own, time_s=own.time_s + begin_s) for own in problem.log.trials)
+    later = replace(problem, log=replace(problem.log, trials=tuple(trials)))
+    fit = left_of(problem, 0.8)
+    assert common_part(later, fit) == pytest.approx(common_part(problem, fit), rel=0.1)
+
+
 def test_with_one_sensor_there_is_nothing_to_compare():
     log = log_of(NOMINAL, seconds=10.0)
     (one,) = log.trials
