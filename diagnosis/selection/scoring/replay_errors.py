@@ -8,6 +8,8 @@ s^2 over several readings of the encoder; noise has the variance 1 there. So a l
 
     lead / (1 + s^2).
 
+What a part needs of the prior, as of stiffness or damping that it does not name, is no error's doing.
+
 Two rivals may each lead a part, and errors may be more like the lead of one of them: between these two
 their own difference decides, also where the other has lost more of its lead than a rival is behind.
 """
@@ -123,7 +125,8 @@ def _needless(one: Candidate, part: Candidate, errors: Sequence[Array]) -> float
     if length == 0.0:
         return 0.0
     square = float(np.mean([(error @ apart / length) ** 2 for error in errors]))
-    return (part.fit.cost - one.fit.cost) * square / (1.0 + square)
+    lead = (part.fit.cost - part.fit.prior) - (one.fit.cost - one.fit.prior)
+    return max(lead, 0.0) * square / (1.0 + square)
 
 
 def _errors(replays: _Replays, one: Candidate) -> Iterator[Array]:

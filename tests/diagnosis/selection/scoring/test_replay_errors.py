@@ -35,6 +35,20 @@ def test_along_the_difference_errors_add_to_the_variance_of_the_noise(size, monk
     assert [c.score for c in found] == sorted(scores.values())
 
 
+def test_what_a_part_needs_of_the_prior_no_error_makes(monkeypatch, still_start):
+    """Damping that is off by 30 %, named or as scatter of the rig, leaves the same but for a hair."""
+    named = fitted(["damping_error"], np.zeros(4), 100.0)
+    parameterization = still_start.problem.parameterization(())
+    x = parameterization.joined({"damping_error": np.array([np.log(1.3)])})
+    own = {"by_trial": (0.1 * UNIT,), "jacobian": (np.zeros((4, x.size)),)}
+    fit = replace(named.fit, names=(), parameterization=parameterization, x=x, **own)
+    assert fit.prior > 50.0
+    scattered = replace(named, fit=replace(fit, cost=100.01 + fit.prior), score=100.01 + fit.prior)
+    monkeypatch.setattr(module, "_errors", lambda *_: [3.0 * UNIT, -3.0 * UNIT])
+    found = without_replay_errors(still_start.problem, [named, scattered])
+    assert {c.names: c.score for c in found}["damping_error",] == pytest.approx(100.01, abs=0.01)
+
+
 @pytest.mark.parametrize("size", [0.0, 1.0, 3.0])
 def test_a_rival_is_as_near_as_errors_may_bring_it(size, monkeypatch, still_start):
     """A lead in cost of 25, and of 4 for what it says in fewer words, which no error makes."""
