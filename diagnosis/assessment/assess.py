@@ -38,7 +38,7 @@ from diagnosis.replay.twist import ShaftTwist, shaft_twist
 from diagnosis.residuals.largest_moment import largest_moment
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
 from diagnosis.residuals.residual_shape import ResidualShape, residual_shape
-from diagnosis.residuals.trial_residual import trial_residuals
+from diagnosis.residuals.trial_residual import TrialResidual, trial_residuals
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
@@ -124,19 +124,15 @@ def assess(
     complete = not stop.left_out
     further = cache(lambda: _further(coarse, verdict, effects, workers))  # where it is asked for first
     near, after, lost = nearest_candidate(problem, coarse, nominal, verdict, further, effects, workers)
-    rig = near.fit.parameterization.rig(near.fit.x)
-    predictions = replay(problem.log, rig, problem.resolution)
-    arguments = (problem.log, problem.noise, rig, predictions, problem.resolution)
+    read = _Replayed.of(log, problem, nominal, near)
+    arguments = (problem.log, problem.noise, read.rig, read.predictions, problem.resolution)
     change = stop.unless_due(FINER, lambda: refinement_change(*arguments)) or []
     error = numerical_error(change) if change else {}
-    explained = at_samples(problem, with_drift(problem.log, problem.noise, predictions))
-    before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
-    left = trial_residuals(log, explained, problem.noise)
-    where = residual_breakdown(before), residual_breakdown(left)
+    where = residual_breakdown(read.before), residual_breakdown(read.left)
     tried = _Attempts()
     named = verdict.effects or tried.or_else(ORDER, lambda: strongest_first(problem, near), near.named)
     spread_of = workers.begin(partial(covariance, problem, near.fit, change, left=_above_noise(near)))
-    twist_of = workers.begin(_twist, problem, near, named, largest_moment(before))
+    twist_of = workers.begin(_twist, problem, near, named, largest_moment(read.before))
     beside = further()
     with_one_more = gap_with_one_more(verdict.best.fit, beside) if beside else {}
     spread = tried.or_else(REPLICATES, spread_of, _inverse_information(near))
@@ -148,25 +144,22 @@ def assess(
     limits = _limits(coarse, verdict, beside, effects, workers) if beside else {}
     advice = tried.or_else(NEXT, lambda: _next_experiment(verdict, advice_of, stop), "")
     by_parts = tried.or_else(BY_PART, lambda: _by_parts(problem, near, verdict, stop), _NO_PARTS)
-    plain = problem.noise.uncoloured
-    gap = gap_reduction(
-        nominal_residuals(replace(problem, noise=plain), nominal), in_units_of(problem, after, plain)
-    )
+    gap = _gap(problem, nominal, after)
     return Assessment(
         gap=gap,
         nearest=nearest_of(near, named, own, gap, *by_parts),
         breakdown=where[0],
         breakdown_after=where[1],
-        shape=residual_shape(before),
-        shape_after=residual_shape(left),
+        shape=residual_shape(read.before),
+        shape_after=residual_shape(read.left),
         parameters=accepted,
         joint=joint_uncertainty(near.fit, spread, named),
-        sensors=sensor_errors(problem, rig, predictions, own),
+        sensors=sensor_errors(problem, read.rig, read.predictions, own),
         with_one_more=with_one_more,
         detection_limits=limits,
         next_experiment=advice,
         numerical_error=error,
-        explained=explained,
+        explained=read.explained,
         twist=stop.unless_due(TWIST, twist_of),
         warnings=(
             *problem.log.warnings,
@@ -177,6 +170,46 @@ def assess(
             *_bound_warnings(near.fit.status.at_bound),
         ),
     )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Replayed:
+    """What the nearest explanation predicts, and what it and the nominal rig leave.
+
+    Attributes:
+      predictions: by trial of the problem.
+      explained: at the samples of the log, with drift of the sensors.
+      before, left: residuals of the nominal rig, and of the explanation.
+    """
+
+    rig: RigParameters
+    predictions: list[Prediction]
+    explained: list[Prediction]
+    before: Sequence[TrialResidual]
+    left: Sequence[TrialResidual]
+
+    @classmethod
+    def of(
+        cls, log: RigLog, problem: FitProblem, nominal: Sequence[Prediction], near: Candidate
+    ) -> "_Replayed":
+        """Of an explanation; the nominal rig was replayed before."""
+        rig = near.fit.parameterization.rig(near.fit.x)
+        predictions = replay(problem.log, rig, problem.resolution)
+        explained = at_samples(problem, with_drift(problem.log, problem.noise, predictions))
+        return cls(
+            rig=rig,
+            predictions=predictions,
+            explained=explained,
+            before=trial_residuals(log, at_samples(problem, nominal), problem.noise),
+            left=trial_residuals(log, explained, problem.noise),
+        )
+
+
+def _gap(problem: FitProblem, nominal: Sequence[Prediction], after: Sequence[Array]) -> GapReduction:
+    """The gap before and after, in units of the noise as if it were white."""
+    plain = problem.noise.uncoloured
+    before = nominal_residuals(replace(problem, noise=plain), nominal)
+    return gap_reduction(before, in_units_of(problem, after, plain))
 
 
 class _Attempts:
