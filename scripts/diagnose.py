@@ -15,7 +15,7 @@ from rich.text import Text
 from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.freeform.save import as_file, file_of
 from diagnosis.in_sigma import over_sigma
-from diagnosis.log.rig_log import files_of, read_rig_log
+from diagnosis.log.rig_log import RigLog, files_of, read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.answer import answer
 from diagnosis.report.json_report import as_json
@@ -73,45 +73,75 @@ def run(
     Returns:
       0, or 128 + the number of the signal that stopped the diagnosis early.
     """
-    effect_file = file_of(save_effect) if save_effect is not None else None
-    if effect_file:
-        Destination(folder=effect_file.parent, force=force).check([effect_file])
-    used_s = time.monotonic() - began_s if began_s else 0.0
+    effect_file = _effect_file(save_effect, force=force)
     writes = out is not None or not json_only
-    reserve_s = max(_REPORT_LEAST_S, _REPORT_STARTS * used_s) if writes else 0.0
-    stop = StopSignal(limit_s, began_s=began_s, reserve_s=reserve_s)
-    finish_interrupted(log_folder)
-    log = read_rig_log(log_folder)
+    stop = _stop(limit_s, began_s, writes=writes)
+    log = _read(log_folder)
     outputs, inputs = partial(output_paths, log), files_of(log, log_folder)
     destination = output_folder(out, DEFAULT, outputs, inputs=inputs, force=force) if writes else None
-    for warning in log.warnings:
-        complain(f"warning: {warning}")
     prepare_processes()  # compiles for half a minute the first time, before there is anything to tell
     with stops_on_signals(stop):
         try:
-            with progress_line(terminal(stderr=True), stop) as show:
-                found = diagnose(
-                    log,
-                    stop=stop,
-                    progress=show,
-                    diagnosed_on=date.today(),
-                    meanwhile=load_libraries if writes else None,
-                )
+            found = _diagnosed(log, stop, writes=writes)
         except StoppedEarly as early:
             if not stop.requested:
                 raise
             complain(f"needle diagnose: {early}")
             return EXIT_CODES[stop.requested]
-        try:
-            written = write_report(found, destination) if destination else None
-        except UnwritableOutput:
-            _show(found, console, json_only=json_only)
-            raise
-        _show(found, console, json_only=json_only)
-        code = tell(written, console, shown=() if json_only else None) if written else ExitCode.DONE
+        code = _delivered(found, destination, console, json_only=json_only)
         if save_effect and effect_file:
             _save(found, save_effect, effect_file, force=force)
     return EXIT_CODES[stop.requested] or code
+
+
+def _effect_file(save_effect: str | None, *, force: bool) -> Path | None:
+    """The file of an effect that is to be saved, which may be written; None: none is to be."""
+    if save_effect is None:
+        return None
+    path = file_of(save_effect)
+    Destination(folder=path.parent, force=force).check([path])
+    return path
+
+
+def _stop(limit_s: float | None, began_s: float | None, *, writes: bool) -> StopSignal:
+    """The stop at the time limit, with what the report needs kept of it."""
+    used_s = time.monotonic() - began_s if began_s else 0.0
+    reserve_s = max(_REPORT_LEAST_S, _REPORT_STARTS * used_s) if writes else 0.0
+    return StopSignal(limit_s, began_s=began_s, reserve_s=reserve_s)
+
+
+def _read(log_folder: Path) -> RigLog:
+    """The log, with its warnings told."""
+    finish_interrupted(log_folder)
+    log = read_rig_log(log_folder)
+    for warning in log.warnings:
+        complain(f"warning: {warning}")
+    return log
+
+
+def _diagnosed(log: RigLog, stop: StopSignal, *, writes: bool) -> Diagnosis:
+    """The diagnosis, with its progress shown; libraries of the report load meanwhile."""
+    with progress_line(terminal(stderr=True), stop) as show:
+        return diagnose(
+            log,
+            stop=stop,
+            progress=show,
+            diagnosed_on=date.today(),
+            meanwhile=load_libraries if writes else None,
+        )
+
+
+def _delivered(
+    found: Diagnosis, destination: Destination | None, console: Console, *, json_only: bool
+) -> ExitCode:
+    """Write the report and show the answer, which is shown where the report cannot be written, too."""
+    try:
+        written = write_report(found, destination) if destination else None
+    except UnwritableOutput:
+        _show(found, console, json_only=json_only)
+        raise
+    _show(found, console, json_only=json_only)
+    return tell(written, console, shown=() if json_only else None) if written else ExitCode.DONE
 
 
 def _show(found: Diagnosis, console: Console, *, json_only: bool) -> None:
