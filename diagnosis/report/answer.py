@@ -93,7 +93,7 @@ def _next(found: Diagnosis) -> str:
         return f"Next: {advice}"
     if found.verdict.kind is VerdictKind.NONE:
         change = (
-            "mend the sensors, or allow for what they do; the model need not change"
+            "fix the sensors, or allow for what they do; the model need not change"
             if told_of_sensors(found)
             else "nothing has to change"
         )

@@ -57,7 +57,8 @@ def largest_residual(found: Diagnosis) -> str:
     """Where along time the residual of the nominal model is largest."""
     stretch, value = found.assessment.breakdown.worst
     return (
-        f"Worst {STRETCH_S:g} s of the nominal model, all sensors together: {in_sigma(value)}, {stretch}"
+        f"Largest residual of the nominal model in {STRETCH_S:g} s, all sensors together: "
+        f"{in_sigma(value)}, {stretch}"
     )
 
 

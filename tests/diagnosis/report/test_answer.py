@@ -38,12 +38,12 @@ def test_what_cannot_be_told_from_it_is_in_the_second_sentence(dry):
     )
 
 
-def test_a_sensor_that_is_all_of_the_gap_is_to_be_mended(dry):
+def test_a_sensor_that_is_all_of_the_gap_is_to_be_fixed(dry):
     nothing = concluding(dry.found, kind=VerdictKind.NONE, effects=())
     sensors = replace(nothing.assessment.sensors, drift_sigma={"base_torque_n_mm": 5.0})
     _, _, then = answer(replace(nothing, assessment=replace(nothing.assessment, sensors=sensors)))
     assert then.startswith(
-        "Next: mend the sensors, or allow for what they do; the model need not change;"
+        "Next: fix the sensors, or allow for what they do; the model need not change;"
     )
 
 

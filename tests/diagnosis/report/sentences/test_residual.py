@@ -79,10 +79,8 @@ def test_noise_and_numerical_error_are_told_by_sensor(dry):
 
 def test_the_largest_residual_is_told_with_where_it_is(dry):
     stretch, value = dry.found.assessment.breakdown.worst
-    assert (
-        largest_residual(dry.found)
-        == f"Worst 5 s of the nominal model, all sensors together: {in_sigma(value)}, {stretch}"
-    )
+    where = "Largest residual of the nominal model in 5 s, all sensors together"
+    assert largest_residual(dry.found) == f"{where}: {in_sigma(value)}, {stretch}"
 
 
 def test_table_sentence_and_advice_name_the_same_parts_with_the_same_numbers(dry):
