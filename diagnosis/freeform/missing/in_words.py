@@ -79,7 +79,7 @@ def _with_so_many_more(more: Sequence[Law], beside: str) -> str:
         f"{VARIABLES[law.variable]}"
         for law in more
     )
-    return f"This law{beside}, with {' and '.join(each)}, reduces"
+    return f"This law{beside.removesuffix(',')}, with {' and '.join(each)}, reduces"
 
 
 def _where(missing: Missing, place: Place) -> str:

@@ -141,6 +141,14 @@ def test_laws_that_leave_far_more_than_noise_are_hints(beside, said):
     assert "hint" not in what_is_missing(missing, 89.0)
 
 
+def test_an_effect_of_the_library_beside_laws_that_leave_far_more_than_noise_is_told():
+    missing = missing_with(beside=(LAW,), best=replace(seen_fit(), others=(free_fit(1.0).family,)))
+    far = replace(missing.depends_on[0], gap_after=23.0)
+    beside = replace(missing, law=replace(missing.law, beside=("tip_drag",)), depends_on=(far,))
+    told = what_is_missing(beside, 89.0)
+    assert f"This law, beside viscous drag at the tip, with {ONE_MORE}, reduces the residual" in told
+
+
 def test_that_a_law_grows_with_another_variable_is_told():
     factor = replace(LAW, variable="time", title="factor of the friction", unit="-", multiplies=True)
     law = seen_fit()
