@@ -3,6 +3,8 @@
 They open the page and the summary on the screen.
 """
 
+from collections.abc import Sequence
+
 from diagnosis.criteria.assessment import CERTAIN_PROBABILITY
 from diagnosis.freeform.missing.in_words import what_is_missing
 from diagnosis.in_sigma import in_sigma
@@ -31,7 +33,8 @@ def _sure(found: Diagnosis) -> str:
         case VerdictKind.EXPLAINED:
             return f"{_probability(found)}; {_share(found, 'it')}{_beside(found)}"
         case VerdictKind.UNDECIDED:
-            which = f"but not which one (probability of the first: {_of_the_first(found):.3f})"
+            first = _probability_of(found, found.verdict.confusable[0])
+            which = f"but not which one (probability of the first: {first:.3f})"
             return f"Sure that it is one of these, {which}; {_share(found, 'the first')}"
     return _nearest(found)
 
@@ -66,17 +69,16 @@ def _sure_of_nothing(found: Diagnosis) -> str:
 def _probability(found: Diagnosis) -> str:
     """Of what is named, beside the most probable of what else was tried."""
     name = explanation_name(found.verdict.effects)
-    own = dict(explanations(found)).get(name, 0.0)
+    own = _probability_of(found, found.verdict.effects)
     others = [one for one in explanations(found) if one[0] != name]
     beside = f" (next: {others[0][0]} with {others[0][1]:.3f})" if others else ""
     told = f"above {CERTAIN_PROBABILITY}" if own > CERTAIN_PROBABILITY else f"{own:.3f}"
     return f"Probability {told} among all explanations that were tried{beside}"
 
 
-def _of_the_first(found: Diagnosis) -> float:
-    """Probability of the first of the confusable sets."""
-    first = explanation_name(found.verdict.confusable[0])
-    return {explanation_name(names): p for names, p in found.verdict.ranking}[first]
+def _probability_of(found: Diagnosis, effects: Sequence[str]) -> float:
+    """Probability of a set of effects; 0 where it rounds to nothing."""
+    return dict(explanations(found)).get(explanation_name(effects), 0.0)
 
 
 def _share(found: Diagnosis, which: str) -> str:
