@@ -12,6 +12,9 @@ far         at two Jacobians in turn, S > F N and P < (S - N) / 20: such steps d
 behind      S - 10 P is above the cost that a fit has to reach to be of use; from the third Jacobian on
             S - 5 P: of 365 later Jacobians 95 in 100 were followed by a gain of at most that, half of
             them by one of P, and the others were in slow valleys, far above the noise.
+creeping    at the noise, two steps in turn take off less than a quarter of what was promised, and P < 5:
+            of 114 fits three did so, and 7 to 17 further steps took off at most P, half of the lead that
+            any decision asks for.
 stalled     no step along the search direction reduces the cost: shorter ones would be below a hundredth
             of the finite difference, at which slopes are meaningless.
 
@@ -39,6 +42,7 @@ _ONE_MORE = 5.0  # tolerances within which one more step is enough
 _DAMPED = 0.1  # regularizer from which a step is no Gauss-Newton step
 _SLOW = 0.05  # of what is left beyond noise: what a step takes off at most
 _FUTILE, _FUTILE_LATER = 10.0, 5.0  # times what the linear model promises; from the third Jacobian on
+_CREEPING, _LITTLE = 0.25, 5.0  # share of the promise that a step keeps at least; cost that is little
 _IDLE_SIGMA = 0.1  # by which a parameter changes the residuals over its range, as a norm
 _MOST_TRIES = 8  # steps along one direction, each shorter
 _SHORT = 0.01  # differences that slopes were taken over: a shorter step is beyond them
@@ -51,6 +55,7 @@ class Termination(StrEnum):
     STEP = "converged: step"
     OFFSET = "converged: relative offset"
     STALLED = "stalled: no further reduction"
+    CREEPING = "stopped: at the noise, and slow"
     ITERATIONS = "stopped: most iterations"
     FAR = "stopped: far above the noise, and slow"
     BEHIND = "stopped: cannot come near the best"
@@ -76,6 +81,8 @@ _MEANING = {
     "small part of its uncertainty",
     Termination.STALLED: "ended after {}: no further step lowers the residual; the values are the best "
     "that were found, and others close by may fit as well",
+    Termination.CREEPING: "ended after {}: further steps hardly lower the residual; others close by fit "
+    "as well",
     Termination.ITERATIONS: "ended after {}, the most that are allowed: more might lower the residual",
     Termination.FAR: "ended after {}: far above the noise, with little to gain by further steps",
     Termination.BEHIND: "given up after {}: it cannot come near the best explanations",
@@ -164,6 +171,8 @@ class Stopping:
         self._there = self._tried = np.zeros(0)
         self._tries = self._jacobians = 0
         self._last = self._slow = False
+        self._before = (np.inf, np.inf)
+        self._crept = 0
 
     def __call__(self, x: Array) -> Array:
         """Residuals with the prior, (N,)."""
@@ -189,12 +198,21 @@ class Stopping:
         offset = np.sqrt(max(predicted, 0.0) / (freedom * noise)) if noise > 0 else 0.0
         if offset <= self.tolerance:
             raise self._ended(self._there, Termination.OFFSET)
+        if self._creeps(cost, predicted, at_x.size):
+            raise self._ended(self._there, Termination.CREEPING)
         slow = cost > self.far * at_x.size and predicted < _SLOW * (cost - at_x.size)
         if slow and self._slow:
             raise self._ended(self._there, Termination.FAR)
         self._slow = slow
         self._last = bool(offset <= _ONE_MORE * self.tolerance)
         return self._without_idle(slopes)
+
+    def _creeps(self, cost: float, predicted: float, samples: int) -> bool:
+        """Whether two steps in turn took off little of what the model promised, which is little now."""
+        before, promised = self._before
+        self._before = cost, predicted
+        self._crept = self._crept + 1 if before - cost < _CREEPING * promised else 0
+        return self._crept > 1 and predicted < _LITTLE and cost <= GAP_LIMIT**2 * samples
 
     def _without_idle(self, slopes: Array) -> Array:
         """Slopes, 0 along parameters that change nothing here, whatever they are.

@@ -11,7 +11,9 @@ from diagnosis.criteria.fitting import GAP_LIMIT
 from diagnosis.criteria.selection import NEAR_FLOOR
 from diagnosis.fitting.fit import _minimised
 from diagnosis.fitting.fit_status import (
+    _CREEPING,
     _FUTILE_LATER,
+    _LITTLE,
     _SLOW,
     Ended,
     FitStatus,
@@ -215,7 +217,7 @@ def ends_at(objective, promised, far):
     off = np.sqrt(promised * (left @ left - 200) / 200)
     x = objective.best + np.array([off, 0.0])
     stopping = Stopping(objective, 1e-3, far=far)
-    for taken in range(3):
+    for taken in range(2):
         try:
             stopping.jacobian(x, objective(x))
         except Ended as ended:
@@ -272,3 +274,34 @@ def test_one_small_promise_ends_no_fit():
     for promised in (0.9 * _SLOW, 1.1 * _SLOW, 0.9 * _SLOW):
         x = bumpy.best + np.array([np.sqrt(promised * excess / 200), 0.0])
         stopping.jacobian(x, bumpy(x))
+
+
+def ends_where_steps_take(share, promised, times=1.0):
+    """After how many Jacobians a fit ends whose steps take off such a share of what is promised.
+
+    Args:
+      promised: by the first Jacobian, in cost.
+      times: cost of what no line can follow / that of noise.
+    """
+    bumpy = Bumpy(times)
+    stopping = Stopping(bumpy, 1e-3)
+    for taken in range(5):
+        x = bumpy.best + np.array([np.sqrt(promised * (1 - share) ** taken / 200), 0.0])
+        try:
+            stopping.jacobian(x, bumpy(x))
+        except Ended as ended:
+            return ended.termination, taken
+    return None
+
+
+@pytest.mark.parametrize(
+    ("share", "promised", "times", "after"),
+    [
+        (0.8 * _CREEPING, 0.9 * _LITTLE, 1.0, (Termination.CREEPING, 2)),
+        (1.2 * _CREEPING, 0.9 * _LITTLE, 1.0, None),  # steps that keep what they promise go on
+        (0.8 * _CREEPING, 4.0 * _LITTLE, 1.0, None),  # so does what may decide something
+        (0.8 * _CREEPING, 0.9 * _LITTLE, 1.1 * GAP_LIMIT**2, None),  # and what is above the noise
+    ],
+)
+def test_at_the_noise_a_fit_that_creeps_ends(share, promised, times, after):
+    assert ends_where_steps_take(share, promised, times) == after
