@@ -57,6 +57,7 @@ STAGES = {
     "finalists, imperfections of sensors": _whole(
         "fitting the best imperfections of sensors to the whole log", 1.0, 0, 2
     ),
+    "presliding of dry friction": _whole("fitting the presliding angle of dry friction", 1.0, 0, 1),
     "screening three effects": _coarse("screening sets of three effects", 0.05, 0, 96),
     "three effects": _coarse("fitting sets of three effects", 0.5, 0, 12),
     "finalists, three effects": _whole("fitting the best sets of three to the whole log", 1.0, 0, 4),

@@ -31,7 +31,7 @@ class Needle(Record):
     name: str = "custom"
     diameter_mm: Annotated[float, Field(gt=0, le=100)]
     shear_modulus_gpa: Positive
-    density_g_cm3: Annotated[float, Field(gt=0, le=30)]
+    density_g_cm3: Annotated[float, Field(gt=0, le=1e9)]
     length_mm: Annotated[float, Field(gt=0, le=5000)] = 410.0
     """From the chuck to the tip."""
     tip_drag_n_mm_s_per_rad: NonNegative = 0.0

@@ -29,7 +29,8 @@ from sim.needles.setup import Setup
 from sim.protocol_cost import refuse_costly, samples_of
 from sim.schedule import LENGTH_TOLERANCE_MM, Schedule
 
-_STIFFEST_GPA = 1000.0  # twice as stiff as diamond: most likely another unit
+# Twice as stiff as diamond, and denser than osmium: most likely another unit.
+_MOST_OF_A_NEEDLE = (("shear_modulus_gpa", 1000.0, "GPa"), ("density_g_cm3", 30.0, "g/cm3"))
 _LARGEST, _SMALLEST = 1e9, 1e-18  # of any number in a file, in its own unit: no rig has more, or less
 
 
@@ -188,13 +189,11 @@ def read_protocol(path: Path) -> Protocol:
     content = read_yaml(path, expected="a mapping of the fields of a protocol")
     protocol = read_record(path, Protocol, content)
     _refuse_out_of_scale(path, protocol.model_dump(exclude_unset=True), "")
-    if protocol.needle.shear_modulus_gpa > _STIFFEST_GPA:
-        raise InvalidValue(
-            f"{path}: needle.shear_modulus_gpa",
-            protocol.needle.shear_modulus_gpa,
-            f"at most {_STIFFEST_GPA:g} GPa",
-            "check that the value is in GPa",
-        )
+    for name, most, unit in _MOST_OF_A_NEEDLE:
+        found = getattr(protocol.needle, name)
+        if found > most:
+            fix = f"check that the value is in {unit}"
+            raise InvalidValue(f"{path}: needle.{name}", found, f"at most {most:g} {unit}", fix)
     return protocol
 
 

@@ -5,22 +5,28 @@
 NOMINAL_RANGE = {
     ("needle", "diameter_mm"): (0.05, 100.0),
     ("needle", "shear_modulus_gpa"): (1e-7, 1000.0),
-    ("needle", "density_g_cm3"): (0.1, 30.0),
+    ("needle", "density_g_cm3"): (0.1, 1e9),
     ("tissue", "damping_n_mm_s_per_mm"): (1e-8, 10.0),
     ("sensors", "tip_angle_noise_deg"): (0.0, 90.0),
     ("sensors", "base_angle_noise_deg"): (0.0, 90.0),
     ("sensors", "base_torque_noise_n_mm"): (0.0, 100.0),
 }
 """Physical: beyond these a constant of rig.yaml is in another unit. Other machines than needles are in
-it as an equivalent shaft, which may be thick and soft."""
+it as an equivalent shaft, which may be thick, soft and heavy."""
+DENSEST_G_CM3 = 30.0
+"""Physical: no material is denser; a denser shaft stands for a machine."""
+MATERIALS_KG_M3 = (500.0, 25_000.0)
+"""Physical: densities of materials, from wood to osmium, in another unit."""
+LEAST_MATERIAL_GPA = 0.1
+"""Physical: shear moduli of the materials of shafts, from plastics on; others are softer."""
 READING_RANGE = {
     "time_s": (-1e11, 1e11),
     "base_angle_deg": (-1e5, 1e5),
     "tip_angle_deg": (-1e5, 1e5),
     "base_torque_n_mm": (-1e4, 1e4),
     "tip_torque_n_mm": (-1e4, 1e4),
-    "inserted_mm": (-1e-6, 1000.0),
-    "free_mm": (-1e-6, 1000.0),
+    "inserted_mm": (-1e-6, 5000.0),
+    "free_mm": (-1e-6, 5000.0),
     "speed_mm_s": (-1000.0, 1000.0),
 }
 """Physical: beyond these a reading is in another unit, or a sentinel for a missing value."""
@@ -38,7 +44,7 @@ LONGEST_SAMPLE_S = 5.0
 SHORTEST_SAMPLE_S = 1e-5
 """Physical: nobody reads an encoder of a needle more than 100 000 times a second: another unit."""
 LEAST_DEPTH_MM = 1.0
-"""Derived: READING_RANGE ends at 1000 mm, so that all lengths in metres are below this."""
+"""Physical: all but a needle of more than a metre, told in metres, is below this."""
 SHORTEST_SHAFT_DIAMETERS = 3.0
 """Physical: a shaft is longer than this, unless in metres; needles have 50 to 500 diameters."""
 SHORTEST_SHAFT_MM = 30.0

@@ -138,6 +138,7 @@ class Effect:
       differences: steps of finite differences, in the units of the fit, for one fit after the
         other. A wide step averages over the roughness that stick and slip cause in a residual.
       trial: the only trial that it concerns; empty: all.
+      slides_dry: whether it is dry friction, which gives by an angle before it slides.
       differs: whether its strength may be another one in each trial.
       remedy: what to change in rig or model if it is found, as an instruction; values of parameters by
         name in braces, that of `corrects` as {constant}, and that of `same_as` as {same}.
@@ -157,6 +158,7 @@ class Effect:
     needs: str = ""
     differences: tuple[float, ...] = (1e-3,)
     trial: str = ""
+    slides_dry: bool = False
     differs: bool = False
     remedy: str = ""
     corrects: str = ""

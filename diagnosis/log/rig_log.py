@@ -10,6 +10,7 @@ from pathlib import Path
 
 from diagnosis.log.checks.angle_wraps import refuse_wraps
 from diagnosis.log.checks.consistency import refuse_contradictions
+from diagnosis.log.checks.heavy_shaft import heavy_shaft_warnings, refuse_kg_m3
 from diagnosis.log.checks.lengths import refuse_impossible_lengths
 from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.checks.plausibility import plausibility_warnings
@@ -65,6 +66,7 @@ def read_rig_log(folder: Path) -> RigLog:
       UnusableLog: names the file, the line or column, and how to fix it.
     """
     rig = read_rig(folder / "rig.yaml")
+    refuse_kg_m3(folder / "rig.yaml", rig.needle)
     noise = rig.sensors.by_column()
     paths = [folder / entry.file for entry in rig.trials]
     refuse_too_large(paths)
@@ -91,6 +93,7 @@ def read_rig_log(folder: Path) -> RigLog:
     smoothed, filtered = smoothed_above_hz(trials, noise)
     rough = {column: claim for column, claim in noise.items() if column not in smoothed}
     warnings += [
+        *heavy_shaft_warnings(rig.needle),
         *filtered,
         *far_claims(_as_read(new, read), rough).values(),
         *torque_warnings(trials, noise, rig.rigidity_n_mm2, damping),

@@ -122,6 +122,7 @@ DRAGGED = (
     "elastic tissue is taken to go along with the shaft where that slides; if it stays where it is, "
     "nothing explains the log"
 )
+_SLIDES = "dry friction is taken to give by {:.2g} deg before it slides, not by the usual 0.1 deg"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,6 +134,7 @@ class PreparedLog:
       means_of: number of readings that a sample is the mean of.
       noise_left: noise in the low band of smoothed readings / that of a reading, by sensor.
       tissue_dragged: whether elastic tissue is taken to go along with the shaft where that slides.
+      presliding_deg: angle by which dry friction is taken to give before it slides; None: as usual.
     """
 
     rig: NominalRig
@@ -141,16 +143,20 @@ class PreparedLog:
     means_of: int = 1
     noise_left: Mapping[str, float] = field(default_factory=dict)
     tissue_dragged: bool = False
+    presliding_deg: float | None = None
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Warnings about trials whose sampling rate is too low for inertia, that began late, or whose
-        tissue is dragged along.
+        tissue is dragged along, and about dry friction that slides after another angle.
         """
         dragged = DRAGGED if self.tissue_dragged else ""
+        slides = "" if self.presliding_deg is None else _SLIDES.format(self.presliding_deg)
         each = [inertia_warning(trial.name, trial.inertia) for trial in self.trials]
         late = {trial.name: trial.late_start for trial in self.trials if trial.late_start}
-        return tuple(warning for warning in (*each, late_start_warning(late), dragged) if warning)
+        return tuple(
+            warning for warning in (*each, late_start_warning(late), dragged, slides) if warning
+        )
 
 
 def _steadied(depth_mm: Array) -> Array:

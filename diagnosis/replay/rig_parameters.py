@@ -11,6 +11,7 @@ from functools import cached_property, lru_cache
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import BASE
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.sensing.bearing import PRESLIDING_DEG
 from models.drive import Drive
 from models.needle import Needle
 from models.tissue import Interface, Layer, Tissue
@@ -102,6 +103,7 @@ class RigParameters:
       layer_boundary_fraction: depth of the boundary / inserted length.
       base_stiffness_n_mm_per_rad: stiffness of a spring between drive shaft and needle; 0: rigid.
       drive_friction_n_mm: dry friction of the bearing, which the torque sensor reads.
+      presliding_deg: angle by which dry friction gives before it slides.
       base_scale: reading of the encoder / true angle of the drive shaft.
       inserted_offset_mm: true inserted length minus the logged one.
       offset_free_share: share of this by which the true free length is shorter than the logged one.
@@ -148,6 +150,7 @@ class RigParameters:
     torque_scale: float = 1.0
     torque_delay_s: float = 0.0
     drive_friction_n_mm: float = 0.0
+    presliding_deg: float = PRESLIDING_DEG
     base_scale: float = 1.0
     inserted_offset_mm: float = 0.0
     offset_free_share: float = 0.0
@@ -262,7 +265,9 @@ class RigParameters:
             tissue=tissue,
             drive=drive,
             # A mesh that goes with the needle has the free length in it as well.
-            discretisation=_siblings(elements if standing else 2 * elements, step_s),
+            discretisation=_siblings(
+                elements if standing else 2 * elements, step_s, self.presliding_deg
+            ),
             mesh=schedule.mesh,
             free_mm=float(schedule.free_mm[0]),
             inserted_mm=float(inserted),
@@ -279,8 +284,13 @@ def _parts(parameters: RigParameters, rig: NominalRig) -> tuple[Needle, Tissue, 
 
 
 @lru_cache(maxsize=64)
-def _siblings(elements: int, step_s: float) -> Discretisation:
-    return Discretisation(step_s=step_s, elements=elements, arrangement=Arrangement.SIBLINGS)
+def _siblings(elements: int, step_s: float, presliding_deg: float) -> Discretisation:
+    return Discretisation(
+        step_s=step_s,
+        elements=elements,
+        arrangement=Arrangement.SIBLINGS,
+        presliding_deg=presliding_deg,
+    )
 
 
 NOMINAL = RigParameters()

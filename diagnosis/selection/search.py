@@ -5,7 +5,8 @@ log; the best of these are then fitted on the log itself. If none of them brings
 noise floor, every pair of a leading effect with any other is screened, and so on as before. If one
 does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
 no pair does, every effect beside each of the leading pairs is. Where two or three effects nearly explain
-it, another one is tried in place of each of them. Noise of 1/f that shows itself, and is all that is
+it, another one is tried in place of each of them. Where dry friction leads, the angle by which it gives
+before it slides may be another one. Noise of 1/f that shows itself, and is all that is
 left, is allowed for before any of that. What the scatter of the rig's own constants explains is `none`.
 Where nothing explains the log, elastic tissue may go along with a sliding shaft, clocks may have run
 before the trials, noise may grow with rate or torque or differ from trial to trial, outliers may be
@@ -23,9 +24,10 @@ from diagnosis.selection.stages.best import (
     plainer_sets,
     scatter_of_the_best,
 )
-from diagnosis.selection.stages.dragged_tissue import tissue_that_goes_along
 from diagnosis.selection.stages.exchange import exchanges, exchanges_in_the_best
 from diagnosis.selection.stages.late_sensors import imperfections_in_place
+from diagnosis.selection.stages.laws.dragged_tissue import tissue_that_goes_along
+from diagnosis.selection.stages.laws.presliding import presliding_of_dry_friction
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs
@@ -80,11 +82,13 @@ STAGES: tuple[Stage, ...] = (
     imperfections_of_sensors,
     stiffness_or_damping_alone,
     flicker_noise_that_shows,
+    presliding_of_dry_friction,
     three_effects,
     richer_effects_in_place_of_three,
     exchanges,
     imperfections_beside_three,
     exchanges_in_the_best,
+    presliding_of_dry_friction,
     best_to_its_end,
     noise_of_the_best,
     imperfections_in_place,

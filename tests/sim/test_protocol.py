@@ -86,11 +86,11 @@ def test_a_missing_file_is_named(tmp_path):
         read_protocol(tmp_path / "nothing.yaml")
 
 
-def written(path, modulus):
+def written(path, modulus, density=6.45):
     path.write_text(
         "name: typo\ntissue: viscous-plastisol\nfree_mm: 50\ninserted_mm: 100\nthrough: true\n"
         "segments: [{duration_s: 1}]\n"
-        f"needle: {{diameter_mm: 0.59, shear_modulus_gpa: {modulus}, density_g_cm3: 6.45}}\n"
+        f"needle: {{diameter_mm: 0.59, shear_modulus_gpa: {modulus}, density_g_cm3: {density}}}\n"
     )
     return path
 
@@ -99,6 +99,12 @@ def test_a_file_with_a_stiffness_in_another_unit_is_refused_with_how_to_fix_it(t
     with pytest.raises(InvalidValue, match=r"shear_modulus_gpa: .*1000 GPa, found 27200.0; .*in GPa"):
         read_protocol(written(tmp_path / "p.yaml", 27200))
     assert read_protocol(written(tmp_path / "p.yaml", 1000)).needle.shear_modulus_gpa == 1000
+
+
+def test_a_file_with_a_density_in_kg_per_m3_is_refused_with_how_to_fix_it(tmp_path):
+    with pytest.raises(InvalidValue, match=r"density_g_cm3: .*30 g/cm3, found 6450.0; .*in g/cm3"):
+        read_protocol(written(tmp_path / "p.yaml", 27.2, 6450))
+    assert read_protocol(written(tmp_path / "p.yaml", 27.2, 22.6)).needle.density_g_cm3 == 22.6
 
 
 def test_a_protocol_made_in_python_may_vary_its_stiffness_beyond_what_a_file_may_hold():

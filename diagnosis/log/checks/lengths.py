@@ -1,7 +1,7 @@
 """Impossible lengths: far shorter than any needle, or jumping faster than the shaft can move.
 
-Lengths in metres in a column of millimetres are too short: READING_RANGE ends at 1000 mm, so
-any length in metres is below 1. A shaft is many diameters long, in any unit.
+Lengths in metres in a column of millimetres are too short: needles of less than a metre have none of 1
+or more. A shaft is many diameters long, in any unit.
 """
 
 from pathlib import Path

@@ -15,11 +15,14 @@ from sim.discretisation import Discretisation
 Array = NDArray[np.float64]
 
 PRESLIDING_DEG: float = Discretisation.model_fields["presliding_deg"].default
+"""Of a rig of which nothing else is known."""
 
 
-def bearing_torque_n_mm(shaft_deg: Array, level_n_mm: float) -> Array:
+def bearing_torque_n_mm(
+    shaft_deg: Array, level_n_mm: float, presliding_deg: float = PRESLIDING_DEG
+) -> Array:
     """Torque of the bearing on the shaft, N mm, (N,); 0 at the start."""
-    return level_n_mm / PRESLIDING_DEG * stopped_at(shaft_deg, PRESLIDING_DEG)
+    return level_n_mm / presliding_deg * stopped_at(shaft_deg, presliding_deg)
 
 
 @njit(cache=True)

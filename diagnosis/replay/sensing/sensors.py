@@ -83,7 +83,7 @@ def sensed(
     time_s, torque = inputs.time_s, torque_n_mm
     start_s = float(time_s[0]) if start_s is None else start_s
     if rig.drive_friction_n_mm != 0.0:
-        torque = torque + bearing_torque_n_mm(inputs.drive, rig.drive_friction_n_mm)
+        torque = torque + bearing_torque_n_mm(inputs.drive, rig.drive_friction_n_mm, rig.presliding_deg)
     begun_s = {sensor: start_s - ran_s.get(sensor, 0.0) for sensor in SENSORS}
     tip = _late(interpolated, time_s, tip_deg, begun_s[TIP], rig.tip_clock_ratio, rig.tip_delay_s)
     torque = first_order(time_s, torque, rig.torque_low_pass_s)

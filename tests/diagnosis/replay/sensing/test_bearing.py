@@ -21,6 +21,12 @@ def test_a_reversal_takes_twice_the_presliding_angle_and_a_hold_keeps_the_torque
     np.testing.assert_allclose(torque[351:], 0.5 * np.maximum(1 - back / 0.1, -1.0), atol=1e-9)
 
 
+def test_a_bearing_may_give_by_another_angle():
+    shaft = np.linspace(0.0, 0.5, 51)
+    torque = bearing_torque_n_mm(shaft, 2.0, 0.25)
+    np.testing.assert_allclose(torque, 2.0 * np.minimum(shaft / 0.25, 1.0), atol=1e-12)
+
+
 def test_less_motion_than_the_presliding_angle_is_a_spring():
     """Negative control: nothing slides, and no work is lost."""
     shaft = 0.09 * np.sin(np.linspace(0, 4 * np.pi, 401))

@@ -6,7 +6,7 @@ from diagnosis_fixtures import joined, log_of, start_of_search
 from diagnosis.prepare.prepared_log import DRAGGED
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.record import Decision
-from diagnosis.selection.stages.dragged_tissue import STAGE, tissue_that_goes_along
+from diagnosis.selection.stages.laws.dragged_tissue import STAGE, tissue_that_goes_along
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.workers import Workers
 

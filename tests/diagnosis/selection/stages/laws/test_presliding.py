@@ -1,0 +1,95 @@
+"""The presliding angle of dry friction: fitted where that leads, and where the log asks for it."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import joined, log_of, start_of_search
+
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection.fitting import fit_all
+from diagnosis.selection.record import Decision
+from diagnosis.selection.stages.laws.presliding import STAGE, presliding_of_dry_friction
+from diagnosis.selection.stages.single_effects import single_effects
+from diagnosis.workers import Workers
+
+LEVEL = 0.006
+
+
+def searched(**changes):
+    """Before and after the stage, of two trials."""
+    rig = RigParameters(**changes)
+    log = joined(*(log_of(rig, seed=seed, seconds=8.0) for seed in (1, 2)))
+    effects = ("coulomb_friction", "tip_drag")
+    state = single_effects(start_of_search(log, effects=effects), Workers())
+    state = state.adding(fit_all("other", [(state.problem, ("tip_drag",))], Workers()))
+    return state, presliding_of_dry_friction(state, Workers())
+
+
+def told(state):
+    return [said for said in state.problem.log.warnings if "before it slides" in said]
+
+
+@pytest.fixture(scope="module")
+def early():
+    """Dry friction that gives by three times the usual angle."""
+    return searched(kinetic_n_mm_per_mm=LEVEL, presliding_deg=0.3)
+
+
+def test_another_angle_is_found_and_told(early):
+    before, after = early
+    assert after.problem.log.presliding_deg == pytest.approx(0.3, rel=0.1)
+    assert after.coarse.log.presliding_deg == after.problem.log.presliding_deg
+    assert told(after) == [
+        f"dry friction is taken to give by {after.problem.log.presliding_deg:.2g} deg before it "
+        "slides, not by the usual 0.1 deg"
+    ]
+    assert not told(before)
+    assert [e.decision for e in after.record if e.stage == STAGE and not e.effects][-1] is Decision.KEPT
+
+
+def test_with_it_dry_friction_leaves_less_and_has_its_level(early):
+    before, after = early
+    assert after.best.names == before.best.names == ("coulomb_friction",)
+    assert after.best.fit.cost < before.best.fit.cost - 10.0
+    level = after.best.fit.parameterization.values(after.best.fit.x)[0]
+    assert level == pytest.approx(LEVEL, rel=0.02)
+
+
+def test_what_has_no_dry_friction_goes_on_as_it_was(early):
+    before, after = early
+    without = [c for c in before.candidates if "coulomb_friction" not in c.names]
+    assert without
+    names = {c.names: c.fit.cost for c in after.candidates}
+    for one in without:
+        assert names[one.names] <= one.fit.cost  # if it leads, it is fitted once more
+
+
+def test_every_effect_of_dry_friction_has_it(early):
+    _, after = early
+    for name, effect in after.problem.library.items():
+        rig = effect.apply(RigParameters(), *(p.start[0] for p in effect.parameters))
+        angle = after.problem.log.presliding_deg if effect.slides_dry else 0.1
+        assert rig.presliding_deg == pytest.approx(angle), name
+
+
+def test_it_is_fitted_once(early):
+    _, after = early
+    assert presliding_of_dry_friction(after, Workers()) is after
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"kinetic_n_mm_per_mm": LEVEL},  # the usual angle
+        {"kinetic_n_mm_per_mm": 2e-4, "presliding_deg": 0.12},  # friction too weak for it to show
+        {"tip_drag_n_mm_s_per_rad": 0.3},  # no dry friction
+    ],
+)
+def test_where_nothing_asks_for_it_nothing_changes(changes):
+    before, after = searched(**changes)
+    assert after is before
+
+
+def test_a_replay_without_dry_friction_is_the_same_at_any_angle():
+    usual, other = (log_of(RigParameters(presliding_deg=a), seed=1, seconds=4.0) for a in (0.1, 0.4))
+    for one, two in zip(usual.trials, other.trials, strict=True):
+        np.testing.assert_array_equal(one["base_torque_n_mm"], two["base_torque_n_mm"])
