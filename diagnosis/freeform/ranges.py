@@ -1,7 +1,7 @@
 """The ranges of variables that a log covers, and the size of the residual, which scale free laws."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,7 +64,7 @@ class LogRanges:
       nominal: readings of the nominal rig by trial.
       left: residual of the nominal rig by sensor and trial, in the unit of its name; NaN: no reading.
       softer: readings of a rig with a little less damping by trial; none: not simulated.
-      detailed: whether curves of free-form laws have more detail than usual.
+      detail: how often the places of curves of free-form laws are halved.
     """
 
     problem: FitProblem
@@ -73,11 +73,18 @@ class LogRanges:
     missing: Mapping[str, float]
     left: Mapping[str, tuple[Array, ...]]
     softer: Sequence[Prediction] = ()
-    detailed: bool = False
+    detail: int = 0
+
+    @property
+    def in_more_detail(self) -> "LogRanges":
+        """The same with places of curves twice as close."""
+        return replace(self, detail=self.detail + 1)
 
     def in_detail(self, curve: SmoothCurve) -> SmoothCurve:
-        """The curve of a law: finer, if laws of these ranges are detailed."""
-        return curve.finer if self.detailed else curve
+        """The curve of a law: finer, if laws of these ranges have more detail than usual."""
+        for _ in range(self.detail):
+            curve = curve.finer
+        return curve
 
     @property
     def library(self) -> Mapping[str, Effect]:

@@ -131,7 +131,11 @@ def _richer(
     growing = _open(fitted)
     alone = unlike(distinct([*ranked, *first])) if growing else _worth_a_final(ranked)
     more = richer(coarse, alone, ranges, workers, growing=growing)
-    return distinct(sorted([*fitted, *more], key=lambda f: f.score))
+    found = distinct(sorted([*fitted, *more], key=lambda f: f.score))
+    finer = [f for f in found[:1] if f in more and f.family.name in {one.family.name for one in alone}]
+    if finer:  # a narrow bump may need more
+        found = [*richer(coarse, finer, ranges.in_more_detail, workers, growing=False), *found]
+    return distinct(sorted(found, key=lambda f: f.score))
 
 
 def _finalists(fitted: Sequence[FreeFit], far: bool) -> list[FreeFit]:

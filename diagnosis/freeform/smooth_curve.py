@@ -85,7 +85,7 @@ class SmoothCurve:
         )
         detail = (own[:, None] == halfway).astype(float)
         basis = np.hstack([np.stack(line, axis=1), rest(own), detail])
-        return replace(self, places=own, basis=basis, detail=halfway.size)
+        return replace(self, places=own, basis=basis, detail=self.detail + halfway.size)
 
     def zero_at_zero(self) -> "SmoothCurve":
         """The curve less its value where the variable is 0; as it is, if the places do not span 0.

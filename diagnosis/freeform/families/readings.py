@@ -142,6 +142,8 @@ ADDED = (
     *_added(*_TIP, SENSOR, _V.TIME, _V.TIP_ANGLE, _V.AXIAL_SPEED, _V.DEPTH, _V.TIP_RATE, _V.PAST),
     *_added(*_TIP, SENSOR, _V.TRIAL_SHARE, _V.TURNED_BY, _V.RATE, _V.HISTORY),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
+    *_added(*_TIP, SENSOR, _V.BASE_ANGLE),
+    *_added(*_TIP, SENSOR, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, bent=True),
     *_added(*_TIP, SENSOR, _V.TIP_DIRECTION),
     *_added(*_TIP, {Place.SENSOR: 0.6, Place.NEEDLE: 0.4}, _V.DIRECTION),

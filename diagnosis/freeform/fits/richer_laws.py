@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
-from diagnosis.freeform.family import Family
+from diagnosis.freeform.family import KINDS, Family, kind_of
 from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, few_of_each, with_family
 from diagnosis.freeform.fits.full_fit import full_fit
 from diagnosis.freeform.fits.growth_factor import all_grown, may_grow
@@ -41,9 +41,10 @@ def richer(
 
     Args:
       laws: fits of laws alone that leave different things, those that leave least first.
+      ranges: of these laws.
       growing: whether they may grow; if not, those alone are fitted whose finer curve promises more.
     """
-    finer = {family.name: family for family in families_of(replace(ranges, detailed=True))}
+    finer = {family.name: family for family in families_of(ranges.in_more_detail)}
     may = [(law, [*(_grown(law, ranges) if growing else ()), *_finer(law, finer)]) for law in laws]
     leading = [one for one in may if one[1]][:LEADING]
     pairs = [(law, family) for law, families in leading for family in families]
@@ -68,10 +69,11 @@ def _grown(law: FreeFit, ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _finer(law: FreeFit, finer: Mapping[str, Family]) -> tuple[Family, ...]:
-    """The family of a law with a finer curve, by its name; empty: there is none."""
+    """The family of a law with a finer curve and its priors, by its name; empty: there is none."""
     family = finer.get(law.family.name, law.family)
+    known = {kind_of(p): p.prior_sigma for p in law.family.effect.parameters}
     more = len(family.effect.parameters) > len(law.family.effect.parameters)
-    return (family,) if more else ()
+    return (family.with_prior({kind: known.get(kind, 1.0) for kind in KINDS}),) if more else ()
 
 
 def start_of(coarse: FitProblem, law: FreeFit, family: Family) -> Array:

@@ -78,5 +78,5 @@ def test_curves_are_finer_only_where_laws_are_detailed():
     angle = turns(6.0)
     ranges = covered(angle, tip=angle)
     assert ranges.in_detail(CURVE) is CURVE
-    finer = replace(ranges, detailed=True).in_detail(CURVE)
+    finer = replace(ranges, detail=1).in_detail(CURVE)
     assert finer.places.size == 2 * CURVE.places.size - 1

@@ -1,6 +1,7 @@
 """Which free-form law closes most of a gap."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -201,7 +202,24 @@ def test_of_a_law_and_its_finer_curve_which_have_one_name_the_better_goes_on(mon
     )
     for usual, finer in ((worse, better), (better, worse)):
         monkeypatch.setattr(search, "richer", lambda *_, finer=finer, **__: [finer])
-        assert search._richer(None, [], [usual], None, None) == [better]
+        assert search._richer(None, [], [usual], SimpleNamespace(in_more_detail=None), None) == [better]
+
+
+@pytest.mark.parametrize(("gap", "detail"), [(0.9, ["usual", "more"]), (1.1, ["usual"])])
+def test_where_a_finer_curve_leads_one_that_is_finer_still_is_tried(monkeypatch, gap, detail):
+    family = family_of(parameters=[LEVEL], name="a")
+    usual, finer = (
+        FreeFit(
+            family=family, fit=linear_fit(family, [np.zeros((100, 1))], [np.full(100, own)], x=[0.0])
+        )
+        for own in (1.0, gap)
+    )
+    asked = []
+    monkeypatch.setattr(search, "richer", lambda _, __, own, *___, **____: asked.append(own) or [finer])
+    more = SimpleNamespace(name="more")
+    ranges = SimpleNamespace(name="usual", in_more_detail=more)
+    search._richer(None, [], [usual], ranges, None)
+    assert [own.name for own in asked] == detail
 
 
 def test_of_one_leading_law_no_more_than_a_few_go_to_the_log_itself(fitted):

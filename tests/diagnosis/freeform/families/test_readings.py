@@ -95,6 +95,7 @@ def test_what_repeats_says_after_how_much():
         for what in (
             "drive angle over base_angle",
             "drive torque over base_angle",
+            "tip reading over base_angle",
             "tip reading over tip_angle",
             "torque reading over tip_angle",
         )

@@ -119,3 +119,11 @@ def test_a_wide_bump_does_not():
     coarse, ranges, law = with_a_bump(width_deg=40.0)
     assert law.fit.gap < CLOSED_GAP
     assert richer(coarse, [law], ranges, Workers(), growing=False) == []
+
+
+def test_a_narrower_one_takes_one_that_is_finer_still():
+    coarse, ranges, law = with_a_bump(width_deg=6.0)
+    (finer,) = richer(coarse, [law], ranges, Workers(), growing=False)
+    (found,) = richer(coarse, [finer], ranges.in_more_detail, Workers(), growing=False)
+    assert found.fit.gap < 0.9 * finer.fit.gap
+    assert found.score < finer.score

@@ -36,7 +36,7 @@ def test_the_curve_is_the_torque_of_a_mm_of_shaft():
 
 def test_a_detailed_curve_is_the_same_friction_where_its_detail_is_none():
     """A power law: its logarithm is straight."""
-    (finer,) = families(replace(RANGES, detailed=True))
+    (finer,) = families(replace(RANGES, detail=1))
     own = (0.2, -0.5, *[0.0] * (PLACES - 2))
     detail = len(finer.effect.parameters) - len(FAMILY.effect.parameters)
     assert detail == PLACES - 1
