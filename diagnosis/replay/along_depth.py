@@ -20,6 +20,7 @@ class AlongDepth:
       damping: factors of the viscous torque.
       stiffness: factors of the stiffness, if the tissue is elastic.
       friction_n_mm_per_mm: dry friction in addition to the nominal one.
+      shared: whether that is shared with the axial motion.
       thickness_mm: of each part; the last takes the rest. 0: the parts share the inserted length.
       thicknesses_mm: of each part but the last, where they differ; empty: they do not.
       from_start: whether there are two parts, the first down to where a trial began.
@@ -31,6 +32,7 @@ class AlongDepth:
     damping: tuple[float, ...] = ()
     stiffness: tuple[float, ...] = ()
     friction_n_mm_per_mm: tuple[float, ...] = ()
+    shared: bool = False
     thickness_mm: float = 0.0
     thicknesses_mm: tuple[float, ...] = ()
     from_start: bool = False
@@ -63,6 +65,7 @@ class AlongDepth:
             damping=tuple(factor**strength for factor in self.damping),
             stiffness=tuple(factor**strength for factor in self.stiffness),
             friction_n_mm_per_mm=tuple(strength * level for level in self.friction_n_mm_per_mm),
+            shared=self.shared,
             thickness_mm=self.thickness_mm,
             thicknesses_mm=self.thicknesses_mm,
             from_start=self.from_start,
@@ -85,8 +88,7 @@ class AlongDepth:
             law.but(
                 viscous_n_mm_s_per_mm=_times(damping, law.viscous_n_mm_s_per_mm),
                 stiffness_n_mm_per_rad_per_mm=None if elastic is None else _times(stiffness, elastic),
-                kinetic_n_mm_per_mm=law.kinetic_n_mm_per_mm + (level or 0.0),
-                static_n_mm_per_mm=law.static_level_n_mm_per_mm + (level or 0.0),
+                **self._dry(law, level or 0.0),
             )
             for damping, stiffness, level in each
         )
@@ -94,6 +96,14 @@ class AlongDepth:
             *(Layer(interface=own, **size) for own, size in zip(upper, self._sizes(), strict=True)),
             Layer(interface=last),
         )
+
+    def _dry(self, law: Interface, level: float) -> dict[str, float]:
+        if self.shared:
+            return {"shared_n_mm_per_mm": law.shared_n_mm_per_mm + level}
+        return {
+            "kinetic_n_mm_per_mm": law.kinetic_n_mm_per_mm + level,
+            "static_n_mm_per_mm": law.static_level_n_mm_per_mm + level,
+        }
 
     def _sizes(self) -> list[dict[str, float]]:
         """Of all parts but the last."""

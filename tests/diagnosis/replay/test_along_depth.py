@@ -37,6 +37,13 @@ def test_or_lie_at_fixed_depths():
     np.testing.assert_allclose(found.boundaries_mm(70.0), [0, 40, 70])
 
 
+def test_friction_may_be_shared_with_the_axial_motion():
+    found = tissue_with(AlongDepth(friction_n_mm_per_mm=(0.0, 0.002), shared=True))
+    assert of_layers(found, "shared_n_mm_per_mm") == [0.0, 0.002]
+    assert of_layers(found, "kinetic_n_mm_per_mm") == [0.001] * 2
+    assert AlongDepth(friction_n_mm_per_mm=(0.0, 0.002), shared=True).times(0.5).shared
+
+
 def test_stiffness_is_of_elastic_tissue_alone():
     along = AlongDepth(stiffness=(1.0, 2.0))
     name = "stiffness_n_mm_per_rad_per_mm"

@@ -1,7 +1,8 @@
 """Free laws of a tissue in layers: what each mm of shaft meets depends on its depth below the surface.
 
 - dry friction that each layer has
-- damping, or dry friction, of one layer, which is thin or thick, anywhere
+- damping, or dry friction, of one layer, which is thin or thick, anywhere; where the needle slides, also
+  friction that is shared with the axial motion
 - damping, or the stiffness of elastic tissue, of each layer; only where the inserted length varies: at
   one length these are laws of the place along the shaft (interface.py, tissue.py)
 """
@@ -53,7 +54,11 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     deepest = ranges.deepest_mm
     layers = _Layers(curve=smooth_curve(0.0, 1.0, PARTS), deepest_mm=deepest)
     fine = _Layers(curve=rough_curve(0.0, 1.0, FINE), deepest_mm=deepest)
-    friction = (_friction(layers, ranges), _one_dry_layer(deepest, ranges))
+    slides = Variable.AXIAL_SPEED in ranges.ends
+    dry = (
+        _one_dry_layer(deepest, ranges, shared=own) for own in ((False, True) if slides else (False,))
+    )
+    friction = (_friction(layers, ranges), *dry)
     if Variable.DEPTH not in ranges.ends:
         return friction
     return (*friction, _damping(fine, ranges), _elastic(layers, ranges), _one_layer(deepest, ranges))
@@ -168,23 +173,24 @@ def place_of(name: str, deepest_mm: float, shares: Sequence[float]) -> Parameter
     )
 
 
-def _one_dry_layer(deepest_mm: float, ranges: LogRanges) -> Family:
+def _one_dry_layer(deepest_mm: float, ranges: LogRanges, *, shared: bool) -> Family:
     depth, thickness = _where(deepest_mm, 1)
     level = ranges.dry_level
     usual = level.start[0] / _THICK
     level = replace(level, high=level.high / _THICK, start=(usual,) * len(depth.start))
+    how = ", shared with the axial motion" if shared else ""
     return Family(
         effect=Effect(
-            name="dry friction over position, in one layer",
-            title="dry friction of one layer of tissue",
+            name=f"dry friction over position, in one layer{how}",
+            title=f"dry friction of one layer of tissue{how}",
             place=Place.INTERFACE,
             parameters=(depth, thickness, level),
-            apply=_apply_one_dry_layer,
+            apply=partial(_apply_one_dry_layer, shared),
             differences=(1e-1, 1e-2),
         ),
         places=_FRICTION,
         says=SAYS,
-        title="dry friction along the shaft",
+        title=f"dry friction along the shaft{how}",
         curve=partial(box, 0.0),
         x_unit="mm below the surface",
         unit="N mm / mm",
@@ -192,9 +198,10 @@ def _one_dry_layer(deepest_mm: float, ranges: LogRanges) -> Family:
 
 
 def _apply_one_dry_layer(
-    rig: RigParameters, depth: float, thickness: float, level: float
+    shared: bool, rig: RigParameters, depth: float, thickness: float, level: float
 ) -> RigParameters:
-    dry = AlongDepth(friction_n_mm_per_mm=(0.0, level, 0.0), thicknesses_mm=(depth, thickness))
+    levels = (0.0, level, 0.0)
+    dry = AlongDepth(friction_n_mm_per_mm=levels, shared=shared, thicknesses_mm=(depth, thickness))
     return _with(rig, dry)
 
 

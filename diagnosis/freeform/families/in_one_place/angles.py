@@ -24,7 +24,7 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 
 _QUARTER_DEG = 90.0
-_SLOW_WAVES = (1, 2, 3)
+_SLOW_WAVES = (1, 2, 3, 4)
 _SHOWN = np.linspace(-1.0, 1.0, 49)
 _FIBRES = {Place.TISSUE: 0.6, Place.NEEDLE: 0.4}
 

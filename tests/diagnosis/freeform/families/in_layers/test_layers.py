@@ -17,6 +17,10 @@ ANGLE = turns(6.0)
 STILL = covered(ANGLE, tip=ANGLE)
 DEEPER = replace(STILL, ends={**STILL.ends, Variable.DEPTH: (40.0, 80.0)})
 FAMILIES = {family.name: family for family in families(DEEPER)}
+SLIDING = {
+    family.name: family
+    for family in families(replace(STILL, ends={**STILL.ends, Variable.AXIAL_SPEED: (0.0, 2.0)}))
+}
 FLAT = [0.0] * (PARTS - 1)
 DRY, THICK, ELASTIC = (
     f"{what} over position, in layers" for what in ("dry friction", "damping", "elastic tissue")
@@ -24,6 +28,7 @@ DRY, THICK, ELASTIC = (
 FLAT_OF = {DRY: FLAT, THICK: [0.0] * (FINE - 1), ELASTIC: FLAT}
 ONE = "damping over position, in one layer"
 DRY_ONE = "dry friction over position, in one layer"
+SHARED_ONE = f"{DRY_ONE}, shared with the axial motion"
 MESH = 1e-3  # layers meet in places of their own: another mesh, second order in its elements
 PLAIN = {
     DRY: (
@@ -60,6 +65,7 @@ def test_the_curve_is_told_by_depth_below_the_surface():
 
 def test_at_one_inserted_length_only_friction_is_asked_for():
     assert set(FAMILIES) == {*PLAIN, ONE, DRY_ONE}
+    assert SHARED_ONE in SLIDING
     assert [family.name for family in families(STILL)] == [DRY, DRY_ONE]
 
 
@@ -72,6 +78,14 @@ def test_one_dry_layer_that_spans_all_is_even_friction():
     depth, level = FAMILIES[DRY_ONE].curve(30.0, 8.0, 0.02)
     np.testing.assert_allclose(depth, (0.0, 30.0, 30.0, 38.0, 38.0, 68.0), atol=2e-3)
     np.testing.assert_allclose(level, (0.0, 0.0, 0.02, 0.02, 0.0, 0.0))
+
+
+def test_where_the_needle_slides_friction_of_one_layer_may_be_shared_with_that():
+    own = SLIDING[SHARED_ONE].effect.apply(NOMINAL, 30.0, 8.0, 0.02)
+    free = own.free.along_depth
+    assert (free.friction_n_mm_per_mm, free.thicknesses_mm) == ((0.0, 0.02, 0.0), (30.0, 8.0))
+    assert free.shared
+    assert not SLIDING[DRY_ONE].effect.apply(NOMINAL, 30.0, 8.0, 0.02).free.along_depth.shared
 
 
 def test_one_layer_like_the_others_is_none():

@@ -25,7 +25,9 @@ def rig_of(name, *values):
 @pytest.mark.parametrize("name", FAMILIES)
 def test_a_torque_is_told_as_it_acts(name):
     """At the phase that the laws have, in the unit of the place."""
-    c = np.array([0.3, 0.1, -0.2, 0.05, 0.02, 0.04][: len(FAMILIES[name].effect.parameters)])
+    c = np.array(
+        [0.3, 0.1, -0.2, 0.05, 0.02, 0.04, 0.01, -0.03][: len(FAMILIES[name].effect.parameters)]
+    )
     angle_deg, torque = FAMILIES[name].curve(*c)
     free = rig_of(name, *c).free
     laws = (*free.at_tip, *free.at_entry, *free.in_sheath, *free.throughout)
@@ -39,7 +41,7 @@ def test_a_torque_is_told_as_it_acts(name):
 
 def test_over_many_turns_a_torque_is_that_of_a_spring_where_the_shaft_turns_little():
     """The slowest sine, a quarter of a wave to the largest angle, is straight to 1 % up to a sixth."""
-    angle_deg, torque = FAMILIES[WOUND].curve(0.2, 0.0, 0.0, 0.0, 0.0, 0.0)
+    angle_deg, torque = FAMILIES[WOUND].curve(0.2, *np.zeros(7))
     farthest = np.abs(ANGLE).max()
     assert angle_deg[-1] == pytest.approx(farthest, rel=0.01)
     near = np.abs(angle_deg) < farthest / 6
@@ -53,7 +55,7 @@ def test_along_the_shaft_a_whole_wave_is_that_of_a_law_once_a_turn():
     )
     farthest = max(abs(end) for end in RANGES.ends["base_angle"])
     (sine, cosine) = (0.001, 0.0005)
-    slow = rig_of(ALONG, 0.0, 0.0, 0.0, 0.0, sine, cosine).free.throughout[-1]
+    slow = rig_of(ALONG, *np.zeros(4), sine, cosine, 0.0, 0.0).free.throughout[2]
     assert slow.orientation_cycles == pytest.approx(3 * 90.0 / farthest)
     turn = once.effect.apply(NOMINAL, sine, cosine, 0.0, 0.0).free.throughout[0]
     assert slow.but(orientation_cycles=1.0) == turn
