@@ -153,3 +153,6 @@ of 200 readings, 4 % (derived)."""
 PULSES_SHARE = 0.5
 """Share of the outliers of the base that others answer to, from which they are motion; by chance
 those of two sensors meet in some hundredths of them."""
+TWIST_BEYOND_SIGMA = 0.5
+"""Sigma of a reading of the tip by which shaft beyond the tissue may turn it. A choice: it adds a tenth
+to what noise leaves."""

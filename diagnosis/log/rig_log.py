@@ -21,12 +21,13 @@ from diagnosis.log.faults.mains_hum import without_hum
 from diagnosis.log.faults.saturated import ends_of_ranges
 from diagnosis.log.faults.sensor_faults import without_faults
 from diagnosis.log.faults.smoothed import smoothed_above_hz
+from diagnosis.log.faults.twist_beyond import without_twist_beyond
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_yaml import read_rig
 from diagnosis.log.times.even_times import with_even_times
 from diagnosis.log.times.sampling_jitter import with_sampling_times
 from diagnosis.log.times.slow_sensors import with_new_readings
-from diagnosis.log.trial import SENSORS, Trial, UnusableLog
+from diagnosis.log.trial import SENSORS, TIP, Trial, UnusableLog
 from diagnosis.log.trial_file import read_trial, refuse_too_large
 
 
@@ -79,7 +80,8 @@ def read_rig_log(folder: Path) -> RigLog:
     for path, one in zip(paths, timed, strict=True):
         trial, found = without_faults(one, noise, ends)
         refuse_contradictions(path, trial, noise, rig.rigidity_n_mm2)
-        warnings += found
+        trial, twisted = without_twist_beyond(trial, rig.rigidity_n_mm2, noise[TIP])
+        warnings += [*found, *twisted]
         trials.append(trial)
     trials, hums = without_hum(trials, noise)
     warnings += hums

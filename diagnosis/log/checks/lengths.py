@@ -39,7 +39,7 @@ def refuse_impossible_lengths(path: Path, trial: Trial, diameter_mm: float) -> N
 
 def length_warnings(trial: Trial) -> list[str]:
     """Warnings about lengths that disagree with each other or with the axial speed."""
-    disagreeing = [*_speed_and_free_length(trial), *_beyond_the_shaft(trial), *_beyond_the_tissue(trial)]
+    disagreeing = [*_speed_and_free_length(trial), *_beyond_the_shaft(trial)]
     return [*_tiny_free_length(trial), *disagreeing]
 
 
@@ -116,16 +116,4 @@ def _beyond_the_shaft(trial: Trial) -> list[str]:
     return [
         f"{trial.name}: inserted_mm grows by {deeper[end]:.3g} mm until line {end + 2}, and free_mm "
         f"gives {given[end]:.3g} mm of that; check units and zero of both; both are used as they are"
-    ]
-
-
-def _beyond_the_tissue(trial: Trial) -> list[str]:
-    """Warnings if shaft has left the tissue at its far side, where a torque at the tip twists it."""
-    out_mm = float(np.ptp(trial["free_mm"] + trial["inserted_mm"]))
-    if not trial.tip_is_loaded or out_mm <= LENGTH_SLACK_MM + LENGTH_SLACK * np.ptp(travelled_mm(trial)):
-        return []
-    return [
-        f"{trial.name}: free_mm and inserted_mm together change by {out_mm:.3g} mm, so that shaft of an "
-        "unknown length is beyond the tissue; the torque at the tip twists it, which is not simulated: "
-        "load the tip in trials where it stays in the tissue"
     ]

@@ -107,21 +107,3 @@ def test_a_speed_of_the_wrong_sign_is_said(log):
     (warning,) = read_rig_log(log).warnings
     assert "slides.csv: free_mm and speed_mm_s disagree" in warning
     assert "speed_mm_s seems to have the wrong sign" in warning
-
-
-@pytest.mark.parametrize(
-    ("torque_n_mm", "shallower", "told"), [(1.0, False, 1), (0.0, False, 0), (1.0, True, 0)]
-)
-def test_shaft_beyond_the_tissue_that_a_torque_at_the_tip_twists_is_told(
-    log, torque_n_mm, shallower, told
-):
-    """The needle is drawn back by 20 mm: through the tissue, or out of it."""
-
-    def loaded(t):
-        drawn_mm = t["free_mm"] - t["free_mm"].iloc[0]
-        return t.assign(tip_torque_n_mm=torque_n_mm, inserted_mm=t["inserted_mm"] - shallower * drawn_mm)
-
-    change_trial(log, loaded, "slides.csv")
-    said = [w for w in read_rig_log(log).warnings if "slides.csv: free_mm and inserted_mm together" in w]
-    assert len(said) == told
-    assert all("change by 20 mm" in w for w in said)
