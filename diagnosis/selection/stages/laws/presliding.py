@@ -2,16 +2,16 @@
 
 Asperities bend before they slide: dry friction is a spring up to the presliding angle, about 0.1 deg.
 That of a rig may be half or twice as large, which leaves little, but of strong friction more than noise,
-and other effects would take that up. So with the leading set of effects that has dry friction the angle
-is fitted. If that takes off clearly more than chance, all fits have it from there on: those that lead,
-and those without dry friction, go on.
+and other effects would take that up. So with the best set of effects, if it has dry friction and comes
+near the noise, the angle is fitted. If that takes off clearly more than chance, all fits have it from
+there on: those that lead, and those without dry friction, go on.
 """
 
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from diagnosis.criteria.selection import PRESLIDING_LEAD, PRESLIDING_SPREAD
+from diagnosis.criteria.selection import NEAR_FLOOR, PRESLIDING_LEAD, PRESLIDING_SPREAD
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
@@ -55,7 +55,8 @@ ANGLE = Effect(
 def presliding_of_dry_friction(state: SearchState, workers: Workers) -> SearchState:
     """The state with the presliding angle that the log asks for, where dry friction leads."""
     best = state.best
-    if state.problem.log.presliding_deg is not None or not _slides_dry(state, best):
+    near = best.fit.cost <= NEAR_FLOOR * best.fit.samples
+    if state.problem.log.presliding_deg is not None or not (near and _slides_dry(state, best)):
         return state
     asked = PRESLIDING_LEAD * max(1.0, best.fit.gap**2)
     open_angle = replace(state.problem, library={**state.problem.library, ANGLE.name: ANGLE})

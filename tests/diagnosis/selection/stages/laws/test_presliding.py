@@ -1,5 +1,7 @@
 """The presliding angle of dry friction: fitted where that leads, and where the log asks for it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosis_fixtures import joined, log_of, start_of_search
@@ -87,6 +89,13 @@ def test_it_is_fitted_once(early):
 def test_where_nothing_asks_for_it_nothing_changes(changes):
     before, after = searched(**changes)
     assert after is before
+
+
+def test_far_above_the_noise_it_is_not_asked_for(early):
+    before, _ = early
+    worse = replace(before.best, fit=replace(before.best.fit, cost=4.0 * before.best.fit.samples))
+    far = replace(before, candidates=(worse,))
+    assert presliding_of_dry_friction(far, Workers()) is far
 
 
 def test_a_replay_without_dry_friction_is_the_same_at_any_angle():
