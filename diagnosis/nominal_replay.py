@@ -64,7 +64,7 @@ class NominalReplay:
         return self.fit.parameterization.rig(self.fit.x)
 
     def begun_as(self, problem: FitProblem, fit: Fit) -> "NominalReplay":
-        """The same where a search has found that more trials began late.
+        """The same where a search has found that more trials began late, or that laws are others.
 
         Args:
           problem, fit: of the search: the log with pasts, and their fit to the nominal rig.
@@ -72,9 +72,11 @@ class NominalReplay:
         Raises:
           SimulationFailed: the nominal rig cannot be simulated.
         """
+        same = self.problem.library is problem.library and self.problem.base == problem.base
+        laws = replace(self.problem, library=problem.library, base=problem.base)
         if len(late_starts_of(problem.log)) == len(late_starts_of(self.problem.log)):
-            return self
-        own = replace(self.problem, log=problem.log, nuisance=problem.nuisance)
+            return self if same else replace(self, problem=laws)
+        own = replace(laws, log=problem.log, nuisance=problem.nuisance)
         predictions = replay(problem.log, fit.parameterization.rig(fit.x))
         known = without_unused(self.log, problem.log)
         return NominalReplay(log=known, problem=own, fit=fit, predictions=predictions)

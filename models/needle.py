@@ -18,6 +18,8 @@ from models.record import Record
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 
+DENSEST_G_CM3 = 30.0
+"""No material is denser; a denser shaft stands for the inertia of a machine."""
 STIFFNESS_POINTS = 12
 """Of a curve of the stiffness over the torque."""
 

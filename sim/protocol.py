@@ -19,7 +19,7 @@ from models.drive import Drive, DriveKind
 from models.errors import InvalidValue
 from models.materials import tissue_named
 from models.names import refuse_no_file_name
-from models.needle import NITINOL, Needle, NonNegative, Positive, needle_named
+from models.needle import DENSEST_G_CM3, NITINOL, Needle, NonNegative, Positive, needle_named
 from models.plain_yaml import read_record, read_yaml
 from models.record import Record
 from models.tissue import Tissue
@@ -29,8 +29,7 @@ from sim.needles.setup import Setup
 from sim.protocol_cost import refuse_costly, samples_of
 from sim.schedule import LENGTH_TOLERANCE_MM, Schedule
 
-# Twice as stiff as diamond, and denser than osmium: most likely another unit.
-_MOST_OF_A_NEEDLE = (("shear_modulus_gpa", 1000.0, "GPa"), ("density_g_cm3", 30.0, "g/cm3"))
+_STIFFEST_GPA = 1000.0  # twice as stiff as diamond: most likely another unit
 _LARGEST, _SMALLEST = 1e9, 1e-18  # of any number in a file, in its own unit: no rig has more, or less
 
 
@@ -89,6 +88,13 @@ class Protocol(Record):
 
     @model_validator(mode="after")
     def _is_possible(self) -> "Protocol":
+        if self.needle.density_g_cm3 > DENSEST_G_CM3:
+            raise InvalidValue(
+                "needle.density_g_cm3",
+                self.needle.density_g_cm3,
+                f"at most {DENSEST_G_CM3:g} g/cm3",
+                "check that the value is in g/cm3",
+            )
         shaft = self.free_mm + self.inserted_mm
         if shaft > self.needle.length_mm + LENGTH_TOLERANCE_MM:
             raise InvalidValue(
@@ -189,11 +195,13 @@ def read_protocol(path: Path) -> Protocol:
     content = read_yaml(path, expected="a mapping of the fields of a protocol")
     protocol = read_record(path, Protocol, content)
     _refuse_out_of_scale(path, protocol.model_dump(exclude_unset=True), "")
-    for name, most, unit in _MOST_OF_A_NEEDLE:
-        found = getattr(protocol.needle, name)
-        if found > most:
-            fix = f"check that the value is in {unit}"
-            raise InvalidValue(f"{path}: needle.{name}", found, f"at most {most:g} {unit}", fix)
+    if protocol.needle.shear_modulus_gpa > _STIFFEST_GPA:
+        raise InvalidValue(
+            f"{path}: needle.shear_modulus_gpa",
+            protocol.needle.shear_modulus_gpa,
+            f"at most {_STIFFEST_GPA:g} GPa",
+            "check that the value is in GPa",
+        )
     return protocol
 
 

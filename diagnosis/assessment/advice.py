@@ -17,6 +17,7 @@ from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 from diagnosis.stopping import stopping
 
+_ONCE = 1.5  # runs, which are one
 _WITHOUT_AXIS = "at two rates and two amplitudes, with reversals and with rests of two lengths"
 
 
@@ -99,7 +100,8 @@ def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
     if found.separation >= DECISIVE_SIGMA:
         return f"{found.experiment.words}: there {apart}"
     if runs <= MOST_RUNS:
-        return f"{found.experiment.words}, about {runs:.0f} times: in each run {apart}"
+        times = "once" if runs < _ONCE else f"about {runs:.0f} times"
+        return f"{found.experiment.words}, {times}: in each run {apart}"
     return _only_sliding(problem, one.fit, other.fit, names) or (
         f"no run that this rig can do would tell {names[0]} from {names[1]}: in the best, "
         f"{found.experiment.words}, they would lie {found.separation:.2f} standard deviations apart; "

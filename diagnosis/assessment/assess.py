@@ -277,7 +277,7 @@ def _twist(
 def _alone(problem: FitProblem, near: Candidate, name: str, effects: Sequence[str]) -> RigParameters:
     """The rig with one of several effects, and with the fitted nuisance parameters."""
     nuisance = [e for e in near.fit.parameterization.nuisance if e.name not in effects]
-    alone = parameterization_of([name], nuisance, problem.library)
+    alone = parameterization_of([name], nuisance, problem.library, problem.base)
     return alone.rig(alone.joined({e.name: near.fit.parts[e.name] for e in alone.all}))
 
 

@@ -13,8 +13,6 @@ NOMINAL_RANGE = {
 }
 """Physical: beyond these a constant of rig.yaml is in another unit. Other machines than needles are in
 it as an equivalent shaft, which may be thick, soft and heavy."""
-DENSEST_G_CM3 = 30.0
-"""Physical: no material is denser; a denser shaft stands for a machine."""
 MATERIALS_KG_M3 = (500.0, 25_000.0)
 """Physical: densities of materials, from wood to osmium, in another unit."""
 LEAST_MATERIAL_GPA = 0.1

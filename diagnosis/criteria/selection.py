@@ -143,7 +143,8 @@ LAW_UNRESOLVED_SHARE = 2e-3
 """The same of what effects change. A choice, set on one log in which friction elsewhere took up 0.0013.
 Physical: dry friction holds up to a presliding angle of about 0.1 deg, of twists of 50 deg and more."""
 PRESLIDING_LEAD = 10.0
-"""Cost that another presliding angle has to take off: as SIMPLE_LEAD; times the mean square residual."""
+"""Cost that another presliding angle has to take off beyond log(samples), which a parameter costs: as
+SIMPLE_LEAD; times the mean square residual."""
 PRESLIDING_SPREAD = 0.25
 """Standard deviation of the logarithm of that angle. A choice: a rig is told to have about 0.1 deg."""
 LAG_LITTLE = 1.0

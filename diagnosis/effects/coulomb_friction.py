@@ -25,7 +25,6 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
-    slides_dry=True,
     remedy="add dry friction of {level} along the inserted shaft to the model",
     other_forms=("dry friction over position, in layers", "friction over direction"),
     check="turn slowly at two steady rates: the part of the torque that both share is dry friction",

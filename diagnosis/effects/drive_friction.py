@@ -20,7 +20,6 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
-    slides_dry=True,
     needs="base_torque_n_mm",
     remedy=(
         "add dry friction of {level} between torque sensor and chuck to the model, or free the bearing"

@@ -102,7 +102,7 @@ class Parameter:
             return value
         if math.isinf(self.neutral):
             return value / share
-        if self._is_a_factor:
+        if self.is_a_factor:
             return float(value**share)
         return self.neutral + (value - self.neutral) * share
 
@@ -112,10 +112,10 @@ class Parameter:
             return math.nan
         if math.isinf(self.neutral):
             return 1.0 / abs(value)
-        return abs(math.log(value)) if self._is_a_factor else abs(value - self.neutral)
+        return abs(math.log(value)) if self.is_a_factor else abs(value - self.neutral)
 
     @property
-    def _is_a_factor(self) -> bool:
+    def is_a_factor(self) -> bool:
         """Whether twice and half are as far from neutral."""
         return self.logarithmic and self.neutral == 1.0
 
@@ -138,7 +138,6 @@ class Effect:
       differences: steps of finite differences, in the units of the fit, for one fit after the
         other. A wide step averages over the roughness that stick and slip cause in a residual.
       trial: the only trial that it concerns; empty: all.
-      slides_dry: whether it is dry friction, which gives by an angle before it slides.
       differs: whether its strength may be another one in each trial.
       remedy: what to change in rig or model if it is found, as an instruction; values of parameters by
         name in braces, that of `corrects` as {constant}, and that of `same_as` as {same}.
@@ -158,7 +157,6 @@ class Effect:
     needs: str = ""
     differences: tuple[float, ...] = (1e-3,)
     trial: str = ""
-    slides_dry: bool = False
     differs: bool = False
     remedy: str = ""
     corrects: str = ""

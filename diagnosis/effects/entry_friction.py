@@ -20,7 +20,6 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
-    slides_dry=True,
     remedy="add dry friction of {level} where the shaft enters to the model",
     check="repeat one slow turn at two depths: friction at the entry does not grow with depth",
 )

@@ -20,7 +20,6 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
-    slides_dry=True,
     needs="tip_torque_n_mm",
     remedy="add friction at the tip of {coefficient} times the torque that the tip carries to the model",
     check="repeat one slow turn with two known torques at the tip",

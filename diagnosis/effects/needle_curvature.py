@@ -35,6 +35,7 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
-    remedy="use a straight needle, or add to the model a torque of {torque} times sin(angle - {phase})",
+    remedy="use a straight needle, or add to the model a torque of {torque} times the sine of the angle "
+    "from {phase} on",
     check="turn slowly by a full turn: the torque of a bent shaft swings once in a turn",
 )

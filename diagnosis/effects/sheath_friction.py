@@ -25,7 +25,6 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
-    slides_dry=True,
     remedy="add dry friction of {level} along the free shaft to the model, or lubricate the sheath",
     check=(
         "turn slowly with the needle out of the tissue: what is left of the torque is that of the sheath"

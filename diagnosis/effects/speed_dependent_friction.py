@@ -25,7 +25,6 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
-    slides_dry=True,
     remedy=(
         "add to the model dry friction of {level} along the inserted shaft that is shared with "
         "the axial motion"

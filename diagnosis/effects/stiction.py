@@ -65,7 +65,6 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
-    slides_dry=True,
     contains={"coulomb_friction": _beyond_dry_friction},
     differences=(0.1, 0.03),
     remedy="add to the model dry friction of {kinetic} that rises to {static} at rates below {stribeck}",

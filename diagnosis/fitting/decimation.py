@@ -79,7 +79,12 @@ def _decimated(
     coarse = [predict(log.rig, trial, [nominal_rig], resolution)[0] for trial in bare.trials]
     each = list(zip(log.trials, nominal, bare.trials, coarse, strict=True))
     trials = tuple(_with_readings(*one, step_s, _share(log, bare)) for one in each)
-    rare = PreparedLog(rig=log.rig, trials=trials)
+    rare = PreparedLog(
+        rig=log.rig,
+        trials=trials,
+        tissue_dragged=log.tissue_dragged,
+        presliding_deg=log.presliding_deg,
+    )
     noise = decimated_noise(problem.noise, log, rare)
     decimated = replace(
         problem,

@@ -179,7 +179,7 @@ def change_without(problem: FitProblem, fit: Fit, effects: Collection[str]) -> f
     """
     names = [name for name in fit.names if name not in effects]
     nuisance = [own for own in fit.parameterization.nuisance if own.name not in effects]
-    without = parameterization_of(names, nuisance, problem.library)
+    without = parameterization_of(names, nuisance, problem.library, problem.base)
     kept = {own.name: fit.parts[own.name] for own in fit.parameterization.all if own.name not in effects}
     each = zip(problem.residuals([without.rig(without.joined(kept))]), fit.by_trial, strict=True)
     return float(sum(np.sum((run[0] - left) ** 2) for run, left in each))

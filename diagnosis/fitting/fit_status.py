@@ -12,9 +12,9 @@ far         at two Jacobians in turn, S > F N and P < (S - N) / 20: such steps d
 behind      S - 10 P is above the cost that a fit has to reach to be of use; from the third Jacobian on
             S - 5 P: of 365 later Jacobians 95 in 100 were followed by a gain of at most that, half of
             them by one of P, and the others were in slow valleys, far above the noise.
-creeping    at the noise, two steps in turn take off less than a quarter of what was promised, and P < 5:
-            of 114 fits three did so, and 7 to 17 further steps took off at most P, half of the lead that
-            any decision asks for.
+creeping    at the noise, two steps in turn take off less than a quarter of what was promised, and P is
+            less than half of the least lead that any decision asks for: of 114 fits three did so, and
+            what further steps took off was at most P. Fits that go to their end do not end so.
 stalled     no step along the search direction reduces the cost: shorter ones would be below a hundredth
             of the finite difference, at which slopes are meaningless.
 
@@ -22,6 +22,7 @@ If a model leaves a large residual, finite differences cannot give a gradient th
 noise: its error grows with the residual. The relative offset is therefore relative to the residual.
 """
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -32,7 +33,7 @@ from mujoco import minimize
 from numpy.typing import NDArray
 
 from diagnosis.criteria.fitting import GAP_LIMIT
-from diagnosis.criteria.selection import NEAR_FLOOR
+from diagnosis.criteria.selection import NEAR_FLOOR, NESTED_LEAD
 from diagnosis.fitting.bounded_least_squares import predicted_reduction
 from diagnosis.fitting.objective import Objective
 
@@ -42,7 +43,8 @@ _ONE_MORE = 5.0  # tolerances within which one more step is enough
 _DAMPED = 0.1  # regularizer from which a step is no Gauss-Newton step
 _SLOW = 0.05  # of what is left beyond noise: what a step takes off at most
 _FUTILE, _FUTILE_LATER = 10.0, 5.0  # times what the linear model promises; from the third Jacobian on
-_CREEPING, _LITTLE = 0.25, 5.0  # share of the promise that a step keeps at least; cost that is little
+_CREEPING = 0.25  # share of the promise that a step keeps at least
+_LITTLE = 0.5 * NESTED_LEAD  # cost that decides nothing
 _IDLE_SIGMA = 0.1  # by which a parameter changes the residuals over its range, as a norm
 _MOST_TRIES = 8  # steps along one direction, each shorter
 _SHORT = 0.01  # differences that slopes were taken over: a shorter step is beyond them
@@ -164,7 +166,8 @@ class Stopping:
         Args:
           tolerance: relative offset at which the fit has converged.
           enough: cost below which the fit is of use.
-          far: cost per sample above which it ends where steps are promised to take off hardly anything.
+          far: cost per sample above which it ends where steps are promised to take off hardly anything;
+            infinite: it goes to its end.
         """
         self.objective, self.tolerance, self.enough = objective, tolerance, enough
         self.far = far
@@ -212,6 +215,8 @@ class Stopping:
         before, promised = self._before
         self._before = cost, predicted
         self._crept = self._crept + 1 if before - cost < _CREEPING * promised else 0
+        if math.isinf(self.far):  # it goes to its end
+            return False
         return self._crept > 1 and predicted < _LITTLE and cost <= GAP_LIMIT**2 * samples
 
     def _without_idle(self, slopes: Array) -> Array:

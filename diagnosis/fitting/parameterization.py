@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Effect, Parameter
 from diagnosis.fitting.nuisance import prior_sigma
-from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from models.errors import InvalidValue
 from sim.needles.run import SimulationFailed
 
@@ -30,10 +30,12 @@ class Parameterization:
     Attributes:
       effects: effects that are fitted.
       nuisance: effects that every fit includes.
+      base: the rig that they change.
     """
 
     effects: tuple[Effect, ...]
     nuisance: tuple[Effect, ...]
+    base: RigParameters = NOMINAL
 
     @cached_property
     def all(self) -> tuple[Effect, ...]:
@@ -87,7 +89,7 @@ class Parameterization:
         Raises:
           SimulationFailed: there is no rig with these values.
         """
-        rig, values = RigParameters(), self.values(x)
+        rig, values = self.base, self.values(x)
         try:
             for effect in self.all:
                 count = len(effect.parameters)
@@ -125,10 +127,11 @@ def parameterization_of(
     names: Sequence[str],
     nuisance: Sequence[Effect] = (),
     library: Mapping[str, Effect] = FITTED,
+    base: RigParameters = NOMINAL,
 ) -> Parameterization:
     """The parameterization of effects by name; a nuisance effect among them counts as an effect."""
     others = tuple(e for e in nuisance if e.name not in names)
-    return Parameterization(effects=tuple(library[n] for n in names), nuisance=others)
+    return Parameterization(effects=tuple(library[n] for n in names), nuisance=others, base=base)
 
 
 def starts(effect: Effect) -> list[Array]:

@@ -15,7 +15,7 @@ from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import predict, residuals_of_each
 from diagnosis.replay.resolution import FINE, Resolution
-from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
 Array = NDArray[np.float64]
 
@@ -27,6 +27,7 @@ class FitProblem:
     Attributes:
       nuisance: effects that every fit includes.
       library: effects with bounds and starts for a rig of this size.
+      base: the rig that effects change: the nominal one, but for what a log says of laws of the model.
       tolerance_sigma: tolerance of fits, in standard deviations of their parameters.
       callback_alone: whether fits end without MuJoCo's steps, too: those that only tell which to do
         again (sim.needles.callback_loop).
@@ -39,6 +40,7 @@ class FitProblem:
     nuisance: tuple[Effect, ...]
     resolution: Resolution = FINE
     library: Mapping[str, Effect] = field(default_factory=lambda: FITTED)
+    base: RigParameters = NOMINAL
     tolerance_sigma: float = 0.02
     callback_alone: bool = False
     differences_halved: bool = False
@@ -56,7 +58,7 @@ class FitProblem:
 
     def parameterization(self, names: Sequence[str]) -> Parameterization:
         """The parameterization of a set of effects, with the nuisance parameters."""
-        return parameterization_of(names, self.nuisance, self.library)
+        return parameterization_of(names, self.nuisance, self.library, self.base)
 
     def residuals(
         self, rigs: Sequence[RigParameters], *, callback_alone: bool = False

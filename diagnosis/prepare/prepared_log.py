@@ -18,6 +18,7 @@ from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.prepare.motion.between_samples import between_samples
 from diagnosis.prepare.motion.inertia import InertiaTorque, inertia_warning, smooth_motion
 from diagnosis.prepare.start.late_start import LateStart, late_start_warning
+from sim.discretisation import Discretisation
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
@@ -122,7 +123,8 @@ DRAGGED = (
     "elastic tissue is taken to go along with the shaft where that slides; if it stays where it is, "
     "nothing explains the log"
 )
-_SLIDES = "dry friction is taken to give by {:.2g} deg before it slides, not by the usual 0.1 deg"
+_USUAL_DEG: float = Discretisation.model_fields["presliding_deg"].default
+_SLIDES = "dry friction is taken to give by {:.3g} deg before it slides, not by the usual {:g} deg"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,7 +153,7 @@ class PreparedLog:
         tissue is dragged along, and about dry friction that slides after another angle.
         """
         dragged = DRAGGED if self.tissue_dragged else ""
-        slides = "" if self.presliding_deg is None else _SLIDES.format(self.presliding_deg)
+        slides = "" if self.presliding_deg is None else _SLIDES.format(self.presliding_deg, _USUAL_DEG)
         each = [inertia_warning(trial.name, trial.inertia) for trial in self.trials]
         late = {trial.name: trial.late_start for trial in self.trials if trial.late_start}
         return tuple(

@@ -215,6 +215,20 @@ class RigParameters:
         )
         return self.free.drive(drive) if self.free else drive
 
+    @property
+    def slides_dry(self) -> bool:
+        """Whether there is dry friction anywhere, which gives before it slides."""
+        levels = (
+            self.kinetic_n_mm_per_mm,
+            self.static_excess_n_mm_per_mm,
+            self.shared_n_mm_per_mm,
+            self.entry_friction_n_mm,
+            self.sheath_friction_n_mm_per_mm,
+            self.load_coefficient,
+            self.drive_friction_n_mm,
+        )
+        return any(level > 0.0 for level in levels)
+
     @cached_property
     def without_sensors(self) -> "RigParameters":
         """The same rig with ideal sensors."""

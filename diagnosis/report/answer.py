@@ -6,6 +6,7 @@ They open the page and the summary on the screen.
 from collections.abc import Sequence
 
 from diagnosis.criteria.assessment import CERTAIN_PROBABILITY
+from diagnosis.effects import LIBRARY
 from diagnosis.freeform.missing.in_words import what_is_missing
 from diagnosis.in_sigma import in_sigma
 from diagnosis.report.sensors import told_of_sensors
@@ -33,10 +34,23 @@ def _sure(found: Diagnosis) -> str:
         case VerdictKind.EXPLAINED:
             return f"{_probability(found)}; {_share(found, 'it')}{_beside(found)}"
         case VerdictKind.UNDECIDED:
-            first = _probability_of(found, found.verdict.confusable[0])
-            which = f"but not which one (probability of the first: {first:.3f})"
-            return f"Sure that it is one of these, {which}; {_share(found, 'the first')}"
+            return f"{_sure_of_one(found)}; {_share(found, 'the first')}"
     return _nearest(found)
+
+
+def _sure_of_one(found: Diagnosis) -> str:
+    """How sure it is that it is one of several sets, and what all of them share."""
+    sets = [{*names} for names in found.verdict.confusable]
+    shared = {*sets[0]}.intersection(*sets)
+    delays = {name for name in LIBRARY if LIBRARY[name].delays_a_sensor}
+    if shared and all(names - shared <= delays for names in sets):
+        certain = [name for name in found.verdict.confusable[0] if name in shared]
+        return (
+            f"Sure of {titles(certain)}; open is only whether a sensor is late, or filters its readings, "
+            "which look the same here"
+        )
+    first = _probability_of(found, found.verdict.confusable[0])
+    return f"Sure that it is one of these, but not which one (probability of the first: {first:.3f})"
 
 
 def _beside(found: Diagnosis) -> str:
@@ -48,7 +62,8 @@ def _beside(found: Diagnosis) -> str:
 def _nearest(found: Diagnosis) -> str:
     near = found.assessment.nearest
     if found.missing is not None:
-        return what_is_missing(found.missing, found.assessment.gap.before).removesuffix(".")
+        gap = found.assessment.gap
+        return what_is_missing(found.missing, gap.before, gap.after).removesuffix(".")
     if not near.effects:
         return "Nothing that was tried improves on the nominal model"
     share = _share(found, f"the nearest explanation that was tried ({titles(near.effects)})")

@@ -116,6 +116,9 @@ def _bounded(parameter: Parameter, value: float) -> str:
         return f"{parameter.name} {size:.3g} {parameter.unit}".removesuffix(" -")
     number = _factor(size) if parameter.unit == "-" else f"{size:.3g}"
     told = f"{number} {parameter.unit}".removesuffix(" -")
+    if parameter.is_a_factor and size > 0:
+        ends = sorted((size, 1.0 / size))
+        return f"{parameter.name} {_factor(ends[0])} to {_factor(ends[1])}"
     name = f"|{parameter.name}|" if parameter.low < 0 else parameter.name
     return f"{name} {'≥' if size < parameter.neutral else '≤'} {told}"
 

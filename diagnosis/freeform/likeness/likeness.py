@@ -29,6 +29,7 @@ _LEAST_BAND = 0.01  # of the range of a curve: no band is taken to be narrower
 _WITHIN = 1.0  # half widths of the band, root mean square
 _MOST_EVALUATIONS = 4000
 _FEWEST = 3  # points of a curve
+_NOTHING = 0.01  # of the range of a curve: a first term that is not told
 _LEVEL = 1e-9  # range of a curve that is level, of its largest value
 _ANGLES = ("base_angle", "tip_angle")
 _DRY = "N mm / mm"  # per mm of shaft
@@ -76,7 +77,9 @@ def likeness_of(law: Law) -> Likeness | None:
     library = LIBRARY_LAWS.get((law.place, law.variable, law.unit, shape.name), ())
     x, y = ("" if unit == "-" else f" {unit}" for unit in (law.x_unit, law.unit))
     of = f"{VARIABLES[law.variable]}{x and f' in{x}'}"
-    says = shape.says.format(*values, x=x, y=y, per=x.strip() or "unit", variable=of)
+    told = [0.0 if own == values[0] and abs(own) < _NOTHING * np.ptp(law.y) else own for own in values]
+    says = shape.says.format(*told, x=x, y=y, per=x.strip() or "unit", variable=of)
+    says = says.removeprefix(f"0{y} + ")
     return Likeness(shape=shape.name, says=says, library=library)
 
 

@@ -56,8 +56,8 @@ def _step(x: Array, a: float, b: float, at: float) -> Array:
     return np.asarray(a + 0.5 * b * (1.0 + np.tanh((x - at) / width)))
 
 
-def _wave(x: Array, a: float, b: float, phase: float, cycles: float) -> Array:
-    return np.asarray(a + b * np.sin(np.radians(cycles * x) + phase))
+def _wave(x: Array, a: float, b: float, phase_deg: float, cycles: float) -> Array:
+    return np.asarray(a + b * np.sin(np.radians(cycles * x + phase_deg)))
 
 
 def _parabola(x: Array, a: float, b: float, c: float) -> Array:
@@ -108,7 +108,8 @@ def _waves(x: Array, y: Array, cycles: int) -> tuple[float, tuple[float, ...]]:
     columns = np.stack([np.ones(x.size), np.sin(angle), np.cos(angle)], axis=1)
     mean, sine, cosine = np.linalg.lstsq(columns, y)[0]
     left = y - columns @ (mean, sine, cosine)
-    wave = (float(mean), float(np.hypot(sine, cosine)), float(np.arctan2(cosine, sine)), float(cycles))
+    phase_deg = float(np.degrees(np.arctan2(cosine, sine)))
+    wave = (float(mean), float(np.hypot(sine, cosine)), phase_deg, float(cycles))
     return float(left @ left), wave
 
 
@@ -188,7 +189,7 @@ OF_BOTH_SIGNS = (
 )
 _WAVE = Shape(
     name="sine wave",
-    says="{0:.3g}{y} + {1:.3g}{y} sin({3:.3g} angle + phase), phase {2:.3g} rad",
+    says="{0:.3g}{y} + {1:.3g}{y} times sin({3:.3g} angle {2:+.0f} deg)",
     law=_wave,
     start=lambda x, y: min(_waves(x, y, n) for n in range(1, _MOST_CYCLES + 1))[1],
 )
@@ -207,9 +208,10 @@ def of_angle(x: Array) -> tuple[Shape, ...]:
 
 
 def _whole_waves(cycles: int) -> Shape:
+    angle = "angle" if cycles == 1 else f"{cycles} angle"
     return Shape(
         name=_WAVE.name,
-        says=f"{{0:.3g}}{{y}} + {{1:.3g}}{{y}} sin({cycles} angle + phase), phase {{2:.3g}} rad",
+        says=f"{{0:.3g}}{{y}} + {{1:.3g}}{{y}} times sin({angle} {{2:+.0f}} deg)",
         law=partial(_wave, cycles=cycles),
         start=lambda x, y: _waves(x, y, cycles)[1][:3],
     )

@@ -58,8 +58,10 @@ def _by_direction(back: float, forth: float, unit: str) -> str:
 def _determined(law: Law) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """The points of a curve whose band is not far wider than the curve is large, or changes; all, if few
     are, or if the curve is level there alone."""
-    most = max(_WIDEST * statistics.median(map(abs, law.y)), max(law.y) - min(law.y))
-    points = zip(law.x, law.y, law.low, law.high, strict=True)
+    middle = statistics.median(map(abs, law.y))
+    points = [*zip(law.x, law.y, law.low, law.high, strict=True)]
+    told = [y for _, y, low, high in points if high - low <= _WIDEST * max(abs(y), middle)]
+    most = max(_WIDEST * middle, max(told, default=0.0) - min(told, default=0.0))
     known = [(x, y) for x, y, least, greatest in points if greatest - least <= most]
     level_there = len({y for _, y in known}) == 1 and len(set(law.y)) > 1
     if len(known) < _FEWEST or level_there:

@@ -14,7 +14,7 @@ from diagnosis.freeform.missing.course import course_of
 from diagnosis.freeform.missing.missing import Missing
 from diagnosis.freeform.missing.words import PLACES, VARIABLES, check_of
 from diagnosis.freeform.save import can_be_saved
-from diagnosis.in_sigma import in_sigma
+from diagnosis.in_sigma import in_sigma, over_sigma
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
@@ -28,37 +28,47 @@ SEEN = "on the trials of its fit"
 UNSEEN = "on trials that its fit has not seen"
 _HINT = "still far above the noise: take the curve as a hint only"
 _OTHERS = 3
+_LOOSE = 1.05  # times what it is over noise and the band of the curve, from which that is told beside it
 _LEAST_TOLD, _MOST_TOLD = 0.05, 0.95  # of the readings: as good as none, or all
 _NEARLY = 0.25  # probability from which another place is told
 _TURN_DEG = 360.0
 _SEEN_AGAIN = 0.9  # of a period, over which a law is known where it is said to repeat
 
 
-def what_is_missing(missing: Missing, gap_before: float) -> str:
+def what_is_missing(missing: Missing, gap_before: float, gap_after: float | None = None) -> str:
     """One or two sentences: where the effect acts, what it depends on, how much its law explains.
 
     Args:
       gap_before: gap of the nominal rig, in sigma.
+      gap_after: gap with the law, in sigma; None: as over noise and the band of its curve.
     """
     if missing.law is None:
         return f"No free-form law that was tried does better than the library. {DOUBT}."
     law, first = missing.law, missing.depends_on[0]
     beside = f", beside {' and '.join(FITTED[n].title for n in law.beside)}," if law.beside else ""
-    # Of a trial that no other tells of:
-    alone = any(f.of_each_trial or f.effect.trial for f in missing.best.families)
-    where = _unseen(missing.determined_share) if missing.best.held_out and not alone else SEEN
+    where = where_seen(missing)
     first_course, *more = (f"{course_of(own)}{repeating(p)}" for own, p in laws_of(missing))
     depends = (
-        f"What is missing acts {_where(missing, law.place)} and depends on "
+        f"What is missing acts {_where(missing, law.place, first.gap_after)} and depends on "
         f"{VARIABLES[law.variable]}: {first_course}."
     )
-    falls = f"the residual from {in_sigma(gap_before)} to {in_sigma(first.gap_after)} {where}"
+    left = first.gap_after if gap_after is None else gap_after
+    loose = left > _LOOSE * first.gap_after
+    allowing = f", {over_sigma(first.gap_after)} times noise and the width of the band" if loose else ""
+    falls = f"the residual from {in_sigma(gap_before)} to {in_sigma(left)} {where}{allowing}"
     if first.gap_after > FAR_GAP:
         return f"{depends} {_with_so_many_more(missing.beside, beside)} {falls}; {_HINT}."
     each = zip(missing.beside, more, strict=True)
     others = "".join(f" {_more_of(law, course)}" for law, course in each)
     reduces = "Together they reduce" if others else f"A free-form law of this kind{beside} reduces"
     return f"{depends}{others} {reduces} {falls}{_beside(missing)}.{_likeness(law)}"
+
+
+def where_seen(missing: Missing) -> str:
+    """On which trials the gap of the law is."""
+    # Of a trial that no other tells of:
+    alone = any(f.of_each_trial or f.effect.trial for f in missing.best.families)
+    return _unseen(missing.determined_share) if missing.best.held_out and not alone else SEEN
 
 
 def _unseen(determined_share: float) -> str:
@@ -82,11 +92,16 @@ def _with_so_many_more(more: Sequence[Law], beside: str) -> str:
     return f"This law{beside.removesuffix(',')}, with {' and '.join(each)}, reduces"
 
 
-def _where(missing: Missing, place: Place) -> str:
-    """The place of the leading law, and others that are nearly as likely or more so."""
+def _where(missing: Missing, place: Place, gap_after: float) -> str:
+    """The place of the leading law, and others that are nearly as likely or more so.
+
+    Far above the noise their probabilities are of no law that is right, and are not told.
+    """
     others = {p: own for p, own in missing.place.items() if p is not place and own >= _NEARLY}
     own = missing.place[place]
     likelier = max(others, key=others.__getitem__, default=place)
+    if gap_after > FAR_GAP:
+        return f"most likely {' or '.join(PLACES[p] for p in (place, *others))}"
     if others and others[likelier] > own:
         return (
             f"{PLACES[likelier]} (probability {others[likelier]:.2f}) or {PLACES[place]} ({own:.2f}), "
@@ -149,11 +164,10 @@ def _period_deg(fit: Fit, family: Family) -> float:
     own = zip(fit.parameterization.values(fit.x), fit.parameterization.owners, strict=True)
     values = [float(value) for value, owner in own if owner == family.name]
     free = family.effect.apply(RigParameters(), *values).free or FreeLaw()
-    waves = [
-        _TURN_DEG / law.orientation_cycles
-        for law in (*free.throughout, *free.at_tip, *free.at_entry, *free.in_sheath)
-        if _has_waves(law) and law.orientation_cycles.is_integer()  # else over many turns
-    ]
+    laws = (*free.throughout, *free.at_tip, *free.at_entry, *free.in_sheath)
+    cycles = [law.orientation_cycles for law in laws if _has_waves(law)]
+    whole = all(own.is_integer() for own in cycles)  # else over many turns
+    waves = [_TURN_DEG / own for own in cycles if whole]
     curves = (curve.period for curve in free.curves if curve.variable is not Variable.TIME)
     return max([*curves, *waves], default=0.0)
 

@@ -25,8 +25,8 @@ VARIABLES = {
 }
 _CHECKS = {
     "time": "repeat one slow turn at the beginning of a trial, at its end, and in the last trial",
-    "event": "look up what was done at that time, and repeat the trial: only a lasting cause makes it "
-    "jump again",
+    "event": "look up what was done at that time, and repeat the trial: what the motion causes comes "
+    "again, what was done to the rig stays",
     "base_angle": "turn slowly through whole turns with the needle out of the tissue: what comes from "
     "the drive remains",
     "tip_angle": "turn the tip in known steps, by hand or against a second sensor, and compare",
@@ -38,11 +38,17 @@ _CHECKS = {
     "position": "repeat one turn at depths that grow in equal steps: each step adds a part of the shaft",
     "history": "repeat one turn after rests of different length, and after different numbers of turns",
 }
+_OF_SENSOR = {
+    "time": "read the sensor at rest, without a load, before and after each trial",
+    "history": "read the sensor at rest, without a load, before and after each trial, and after turns "
+    "both ways",
+}
 _WHILE_TURNING = "turn at one steady rate while sliding the needle in and out at three speeds"
 """Of the axial speed, for what acts about the axis: without turning, sensors alone show it."""
 
 
 def check_of(place: Place, variable: str) -> str:
     """What shows a law of a variable by itself, as an order."""
-    turns = variable == "axial_speed" and place is not Place.SENSOR
-    return _WHILE_TURNING if turns else _CHECKS[variable]
+    if place is Place.SENSOR:
+        return _OF_SENSOR.get(variable, _CHECKS[variable])
+    return _WHILE_TURNING if variable == "axial_speed" else _CHECKS[variable]

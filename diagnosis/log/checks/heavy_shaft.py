@@ -7,9 +7,10 @@ unit.
 
 from pathlib import Path
 
-from diagnosis.criteria.log import DENSEST_G_CM3, LEAST_MATERIAL_GPA, MATERIALS_KG_M3
+from diagnosis.criteria.log import LEAST_MATERIAL_GPA, MATERIALS_KG_M3
 from diagnosis.log.nominal_rig import NominalNeedle
 from diagnosis.log.trial import UnusableLog
+from models.needle import DENSEST_G_CM3
 
 
 def refuse_kg_m3(path: Path, needle: NominalNeedle) -> None:

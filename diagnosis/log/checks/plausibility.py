@@ -31,6 +31,7 @@ from diagnosis.log.trial import SENSORS, Trial
 
 Array = NDArray[np.float64]
 
+_UNITS = {"tip_angle_deg": "deg", "base_torque_n_mm": "N mm"}
 _ANGLES = ("base_angle_deg", "tip_angle_deg")
 
 
@@ -116,7 +117,8 @@ def _not_at_rest(trials: Sequence[Trial], noise: Mapping[str, float]) -> list[st
         if off:
             first = next(iter(off))
             warnings.append(
-                f"{listed(off)}: {sensor} starts away from {meant} (by {off[first]:.3g} in {first}); "
+                f"{listed(off)}: {sensor} starts away from {meant} (by {off[first]:.3g} "
+                f"{_UNITS[sensor]} in {first}); "
                 "a trial should start untwisted and at rest, but an offset of the sensor looks the same"
             )
     return warnings

@@ -9,14 +9,18 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import median_filter
 
 from diagnosis.criteria.checks import LENGTH_SLACK, LENGTH_SLACK_MM
 from diagnosis.criteria.faults import TWIST_BEYOND_SIGMA
 from diagnosis.log.checks.travel import travelled_mm
 from diagnosis.log.checks.wording import lines
+from diagnosis.log.faults.scatter import scatter
 from diagnosis.log.trial import TIP, Trial
 
 Array = NDArray[np.float64]
+
+_ROWS = 5  # whose middle one is a length: one row alone may be off
 
 
 def without_twist_beyond(
@@ -28,12 +32,12 @@ def without_twist_beyond(
       rigidity_n_mm2: nominal torsional rigidity.
       noise_deg: claimed noise of the tip's angle.
     """
-    out_mm = _out_mm(trial)
-    if not (trial.tip_is_loaded and trial.has(TIP) and out_mm.any()):
+    if not (trial.tip_is_loaded and trial.has(TIP) and (out_mm := _out_mm(trial)).any()):
         return trial, []
     torque = np.nan_to_num(trial["tip_torque_n_mm"])
     twist_deg = np.degrees(np.abs(torque) * out_mm / rigidity_n_mm2)
-    rows = (twist_deg > TWIST_BEYOND_SIGMA * noise_deg) & np.isfinite(trial[TIP])
+    sigma_deg = max(noise_deg, scatter(trial[TIP]))
+    rows = (twist_deg > TWIST_BEYOND_SIGMA * sigma_deg) & np.isfinite(trial[TIP])
     if not rows.any():
         return trial, []
     table = trial.table.assign(**{TIP: np.where(rows, np.nan, trial[TIP])})
@@ -46,8 +50,14 @@ def without_twist_beyond(
 
 
 def _out_mm(trial: Trial) -> Array:
-    """Length of shaft beyond the tissue, as far as a trial tells, (N,); 0 if it stays in it."""
-    whole = trial["free_mm"] + trial["inserted_mm"]
-    slack = LENGTH_SLACK_MM + LENGTH_SLACK * float(np.ptp(travelled_mm(trial)))
-    out = whole.max() - whole
-    return out if out.max() > slack else np.zeros_like(out)
+    """Length of shaft beyond the tissue, as far as a trial tells, (N,); 0 if it stays in it.
+
+    While the needle is outside, the free length is that to the tissue, and tells nothing of the shaft.
+    """
+    whole, inside = trial["free_mm"] + trial["inserted_mm"], trial["inserted_mm"] > 0
+    if not inside.any():
+        return np.zeros_like(whole)
+    shaft_mm = float(median_filter(whole[inside], _ROWS, mode="nearest").max())
+    slack_mm = LENGTH_SLACK_MM + LENGTH_SLACK * float(np.ptp(travelled_mm(trial)))
+    out = np.where(inside, np.clip(shaft_mm - whole, 0.0, None), 0.0)
+    return out if out.max() > slack_mm else np.zeros_like(out)

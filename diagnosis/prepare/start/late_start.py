@@ -28,7 +28,7 @@ class LateStart:
         rate_deg_s = abs(self.rate_deg_s)
         moving = f" and moving at {rate_deg_s:.0f} deg/s" if rate_deg_s > TURNING_DEG_S else ""
         twist = f"by about {abs(self.twist_deg):.2g} deg" if self.twist_deg else ""
-        unused = f" (first {self.unused_s:.2g} s)" if self.unused_s >= _TOLD_S else ""
+        unused = f" (its first {self.unused_s:.2g} s are not used)" if self.unused_s >= _TOLD_S else ""
         return f"{twist}{moving}{unused}".removeprefix(" and").strip()
 
 
@@ -37,7 +37,4 @@ def late_start_warning(starts: Mapping[str, LateStart]) -> str:
     if not starts:
         return ""
     each = "; ".join(f"{trial} {start.words}" for trial, start in starts.items())
-    return (
-        f"begins twisted or moving: {each}; the earlier turn of the base is fitted, and readings "
-        "within the time in brackets are not used"
-    )
+    return f"begins twisted or moving: {each}; the earlier turn of the base is fitted"

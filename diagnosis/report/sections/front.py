@@ -52,6 +52,7 @@ def _constants(found: Diagnosis) -> str:
     needle = rig.needle
     return (
         f"Nominal rig: needle of {needle.diameter_mm:g} mm, shear modulus "
-        f"{needle.shear_modulus_gpa:g} GPa, damping {rig.tissue.damping_n_mm_s_per_mm:g} N mm s / mm; "
+        f"{needle.shear_modulus_gpa:g} GPa, "
+        f"damping {rig.tissue.damping_n_mm_s_per_mm:g} N mm s / rad / mm; "
         f"{trials} trial{'s' if trials > 1 else ''}"
     )

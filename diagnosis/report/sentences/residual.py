@@ -2,18 +2,22 @@
 
 from diagnosis.criteria.assessment import ALMOST_NOTHING_SIGMA
 from diagnosis.criteria.residuals import STRETCH_S
+from diagnosis.freeform.missing.in_words import SEEN, where_seen
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.report.sentences.names import best_in_words
 from diagnosis.result import Diagnosis
 
-_NO_SHRINK = 5e-4  # of the gap: what rounds to 0.0 %
+_NO_SHRINK = 5e-3  # of the gap: as good as nothing
 
 
 def reduction(found: Diagnosis) -> str:
     """How much of the gap is explained."""
     gap = found.assessment.gap
     seen = "On held-out trials, which the fit has not seen,"
+    law = found.missing if found.missing and found.missing.law else None
+    if law and where_seen(law) == SEEN:
+        seen = f"{SEEN[0].upper()}{SEEN[1:]},"
     if len(found.log.trials) == 1:
         seen = "On the only trial, which is also the one that was fitted,"
     if abs(gap.shrink) < _NO_SHRINK:
@@ -89,6 +93,6 @@ def leading(found: Diagnosis) -> str:
             f"{own.correlation:.2f} is within chance ({own.chance_limit:.2f})"
         )
     return (
-        f"It is not clear which residual leads: perhaps that of {SENSORS[0]}, by "
-        f"{1000 * own.by_s:.0f} ms {interval}, correlation {own.correlation:.2f}"
+        "It is not clear which residual leads: the 95 % interval of the time between them is "
+        f"{1000 * own.low_s:.0f} to {1000 * own.high_s:.0f} ms"
     )

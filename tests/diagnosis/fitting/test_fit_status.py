@@ -276,7 +276,7 @@ def test_one_small_promise_ends_no_fit():
         stopping.jacobian(x, bumpy(x))
 
 
-def ends_where_steps_take(share, promised, times=1.0):
+def ends_where_steps_take(share, promised, times=1.0, far=NEAR_FLOOR):
     """After how many Jacobians a fit ends whose steps take off such a share of what is promised.
 
     Args:
@@ -284,7 +284,7 @@ def ends_where_steps_take(share, promised, times=1.0):
       times: cost of what no line can follow / that of noise.
     """
     bumpy = Bumpy(times)
-    stopping = Stopping(bumpy, 1e-3)
+    stopping = Stopping(bumpy, 1e-3, far=far)
     for taken in range(5):
         x = bumpy.best + np.array([np.sqrt(promised * (1 - share) ** taken / 200), 0.0])
         try:
@@ -305,3 +305,7 @@ def ends_where_steps_take(share, promised, times=1.0):
 )
 def test_at_the_noise_a_fit_that_creeps_ends(share, promised, times, after):
     assert ends_where_steps_take(share, promised, times) == after
+
+
+def test_a_fit_that_goes_to_its_end_may_creep():
+    assert ends_where_steps_take(0.8 * _CREEPING, 0.9 * _LITTLE, far=np.inf) is None

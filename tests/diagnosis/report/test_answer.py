@@ -38,6 +38,17 @@ def test_what_cannot_be_told_from_it_is_in_the_second_sentence(dry):
     )
 
 
+def test_where_only_a_late_sensor_is_open_what_is_sure_is_told(dry):
+    sets = (("coulomb_friction",), ("coulomb_friction", "torque_sensor_delay"))
+    _, sure, _ = answer(concluding(dry.found, kind=VerdictKind.UNDECIDED, confusable=sets))
+    assert sure.startswith(
+        f"Sure of {titles(('coulomb_friction',))}; open is only whether a sensor is late, or filters"
+    )
+    others = (*sets, ("stiction",))
+    _, sure, _ = answer(concluding(dry.found, kind=VerdictKind.UNDECIDED, confusable=others))
+    assert sure.startswith("Sure that it is one of these, but not which one (probability of the first")
+
+
 def test_a_sensor_that_is_all_of_the_gap_is_to_be_fixed(dry):
     nothing = concluding(dry.found, kind=VerdictKind.NONE, effects=())
     sensors = replace(nothing.assessment.sensors, drift_sigma={"base_torque_n_mm": 5.0})
@@ -86,7 +97,8 @@ def test_every_verdict_has_its_sentences(dry, verdict, sure, then):
 @pytest.mark.parametrize("missing", [missing_with(), missing_with(law=None)])
 def test_of_an_unknown_log_the_second_sentence_is_what_is_missing(dry, missing):
     found = replace(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()), missing=missing)
-    assert answer(found)[1] == what_is_missing(missing, found.assessment.gap.before)
+    gap = found.assessment.gap
+    assert answer(found)[1] == what_is_missing(missing, gap.before, gap.after)
 
 
 def test_a_search_that_was_cut_short_is_not_sure(dry):

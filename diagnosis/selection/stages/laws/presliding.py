@@ -3,13 +3,14 @@
 Asperities bend before they slide: dry friction is a spring up to the presliding angle, about 0.1 deg.
 That of a rig may be half or twice as large, which leaves little, but of strong friction more than noise,
 and other effects would take that up. So with the best set of effects, if it has dry friction and comes
-near the noise, the angle is fitted. If that takes off clearly more than chance, all fits have it from
-there on: those that lead, and those without dry friction, go on.
+near the noise, the angle is fitted. If that takes off more than chance, and than a further parameter
+costs, the rig has it in all fits from there on. Leading explanations with dry friction are fitted again,
+on the log itself and decimated; others with dry friction are dropped.
 """
 
-from collections.abc import Callable
+import math
+from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 
 from diagnosis.criteria.selection import NEAR_FLOOR, PRESLIDING_LEAD, PRESLIDING_SPREAD
 from diagnosis.effects.effect import Effect, Parameter, Place
@@ -18,9 +19,10 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.sensing.bearing import PRESLIDING_DEG
 from diagnosis.selection.candidate import Candidate
-from diagnosis.selection.record import Decision, noted
+from diagnosis.selection.fitting import fit_all
+from diagnosis.selection.record import Decision, RecordEntry, dropped, noted
 from diagnosis.selection.screening import screen
-from diagnosis.selection.stages.stage import leading_fitted_again
+from diagnosis.selection.stages.stage import leading_fitted_again, leading_sets, stopped_in
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Failure, Task, Workers
 
@@ -56,23 +58,22 @@ def presliding_of_dry_friction(state: SearchState, workers: Workers) -> SearchSt
     """The state with the presliding angle that the log asks for, where dry friction leads."""
     best = state.best
     near = best.fit.cost <= NEAR_FLOOR * best.fit.samples
-    if state.problem.log.presliding_deg is not None or not (near and _slides_dry(state, best)):
+    if state.problem.log.presliding_deg is not None or not (near and _slides_dry(best)):
         return state
-    asked = PRESLIDING_LEAD * max(1.0, best.fit.gap**2)
+    asked = (PRESLIDING_LEAD + math.log(best.fit.samples)) * max(1.0, best.fit.gap**2)
     open_angle = replace(state.problem, library={**state.problem.library, ANGLE.name: ANGLE})
-    found = workers.each(STAGE, _with_the_angle, [_task(open_angle, best.fit, asked)])[0]
+    task = Task(effects=best.names, arguments=(open_angle, best.fit, asked))
+    found = workers.each(STAGE, _with_the_angle, [task])[0]
     if isinstance(found, Failure) or found is None or best.fit.cost - found.cost < asked:
         return state
     ratio = ANGLE.parameters[0].from_fit(float(found.parts[ANGLE.name][0]))
+    if ratio >= ANGLE.parameters[0].high:
+        return state.noting(noted(STAGE, Decision.DROPPED, "the angle is beyond any of dry friction"))
     return _with_angle(state, ratio * PRESLIDING_DEG, workers)
 
 
-def _slides_dry(state: SearchState, one: Candidate) -> bool:
-    return any(state.problem.library[name].slides_dry for name in one.names)
-
-
-def _task(problem: FitProblem, base: Fit, asked: float) -> Task:
-    return Task(effects=base.names, arguments=(problem, base, asked))
+def _slides_dry(one: Candidate) -> bool:
+    return one.fit.parameterization.rig(one.fit.x).slides_dry
 
 
 def _with_the_angle(problem: FitProblem, base: Fit, asked: float) -> Fit | None:
@@ -81,37 +82,59 @@ def _with_the_angle(problem: FitProblem, base: Fit, asked: float) -> Fit | None:
     Raises:
       SimulationFailed: the rig cannot be simulated with another angle.
     """
-    promised = max(screen(problem, base, ANGLE.name), key=lambda one: one.gain)
+    promised = screen(problem, base, ANGLE.name)[0]
     if promised.gain < asked:
         return None
     return fit_effects(problem, promised.names, promised.start, from_a_fit=True)
 
 
 def _with_angle(state: SearchState, angle_deg: float, workers: Workers) -> SearchState:
-    """The state of problems with this angle; fits without dry friction are as they were."""
+    """The state of problems with this angle; as it was, if a stop or a failure cuts that short."""
     fine, coarse = (_sliding(problem, angle_deg) for problem in (state.problem, state.coarse))
     again, record = leading_fitted_again(STAGE, state, fine, workers)
-    known = {frozenset(c.names) for c in again}
-    others = [c for c in state.candidates if not (_slides_dry(state, c) or frozenset(c.names) in known)]
+    sizes = [_fitted_again(own, coarse, workers) for own in (state.singles, state.pairs, state.triples)]
+    record = (*record, *(entry for _, entries in sizes for entry in entries))
+    if stopped := stopped_in(record):
+        return state.noting(*stopped)
+    if not any({*c.names} == {*state.best.names} for c in again):
+        return state.noting(noted(STAGE, Decision.DROPPED, "the best cannot be simulated with it"))
+    kept, out = _without_dry(state.candidates, again)
+    singles, pairs, triples = (found for found, _ in sizes)
     why = f"dry friction gives by {angle_deg:.3g} deg before it slides"
     return replace(
-        state, problem=fine, coarse=coarse, candidates=(*again, *others), checked=None
-    ).noting(*record, noted(STAGE, Decision.KEPT, why))
+        state,
+        problem=fine,
+        coarse=coarse,
+        candidates=(*again, *kept),
+        singles=singles,
+        pairs=pairs,
+        triples=triples,
+        checked=None,
+    ).noting(*record, *out, noted(STAGE, Decision.KEPT, why))
 
 
 def _sliding(problem: FitProblem, angle_deg: float) -> FitProblem:
-    library = {name: _slid(effect, angle_deg) for name, effect in problem.library.items()}
     log = replace(problem.log, presliding_deg=angle_deg)
-    return replace(problem, library=library, log=log)
+    return replace(problem, log=log, base=replace(problem.base, presliding_deg=angle_deg))
 
 
-def _slid(effect: Effect, angle_deg: float) -> Effect:
-    if not effect.slides_dry:
-        return effect
-    return replace(effect, apply=partial(_applied, effect.apply, angle_deg))
+def _fitted_again(
+    found: Sequence[Candidate], coarse: FitProblem, workers: Workers
+) -> tuple[tuple[Candidate, ...], tuple[RecordEntry, ...]]:
+    """Sets of the decimated log, those with dry friction fitted again if they lead, best first."""
+    leading = leading_sets([c for c in found if _slides_dry(c)])
+    calls = [(coarse, c.names, coarse.parameterization(c.names).joined(c.fit.parts)) for c in leading]
+    again, record = fit_all(STAGE, calls, workers) if calls else ([], ())
+    kept, out = _without_dry(found, again)
+    return tuple(sorted([*again, *kept], key=lambda c: c.score)), (*record, *out)
 
 
-def _applied(
-    apply: Callable[..., RigParameters], angle_deg: float, rig: RigParameters, *values: float
-) -> RigParameters:
-    return replace(apply(rig, *values), presliding_deg=angle_deg)
+def _without_dry(
+    found: Sequence[Candidate], again: Sequence[Candidate]
+) -> tuple[list[Candidate], tuple[RecordEntry, ...]]:
+    """Those of an earlier angle that hold at any, and the record of the others."""
+    known = {frozenset(c.names) for c in again}
+    others = [c for c in found if frozenset(c.names) not in known]
+    out = [c for c in others if _slides_dry(c)]
+    why = "far behind the best, with dry friction that gives by another angle"
+    return [c for c in others if c not in out], dropped(STAGE, out, why)

@@ -39,7 +39,7 @@ def curve(x, y, half, *, variable, place=Place.INTERFACE, unit="-"):
 
 
 def sine(x, mean, size, cycles, phase):
-    return mean + size * np.sin(np.radians(cycles * x) + phase)
+    return mean + size * np.sin(np.radians(cycles * x + phase))
 
 
 # Shape, variable, places, law, its parameters in the order in which they are told.
@@ -52,9 +52,15 @@ LAWS = [
     ("hyperbola", "axial_speed", SIGNED, lambda x, a, half: a / (1 + abs(x / half)), (2.0, 0.8)),
     ("exponential approach", "time", TIMES, lambda x, a, b, t: a + b * np.exp(-x / t), (1, 3, 2.5)),
     ("exponential approach", "depth", TIMES, lambda x, a, b, t: a + b * np.exp(-x / t), (4, -3, 1.5)),
-    ("sine wave", "tip_angle", ANGLES, sine, (1.0, 0.5, 1.0, -0.8)),
-    ("sine wave", "base_angle", ANGLES, sine, (1.0, 0.5, 2.0, 2.3)),
-    ("sine wave", "tip_angle", ANGLES, sine, (-1.0, 0.2, 3.0, -2.8)),
+    (
+        "sine wave",
+        "tip_angle",
+        ANGLES,
+        lambda x, mean, size, phase: sine(x, mean, size, 1.0, phase),
+        (1.0, 0.5, -46.0),
+    ),
+    ("sine wave", "base_angle", ANGLES, sine, (1.0, 0.5, 2.0, 132.0)),
+    ("sine wave", "tip_angle", ANGLES, sine, (-1.0, 0.2, 3.0, -160.0)),
     ("dry and viscous friction", "rate", RATES, lambda x, a, b: a + b * x, (1.0, 0.5)),
     ("power law", "rate", RATES, lambda x, a, p: a * x**p, (1.0, 0.6)),
     (

@@ -141,6 +141,28 @@ def test_laws_that_leave_far_more_than_noise_are_hints(beside, said):
     assert "hint" not in what_is_missing(missing, 89.0)
 
 
+def test_far_above_the_noise_places_have_no_probabilities():
+    missing = missing_with(best=seen_fit())
+    far = replace(missing.depends_on[0], gap_after=23.0)
+    told = what_is_missing(replace(missing, depends_on=(far,)), 89.0)
+    assert told.startswith("What is missing acts most likely between shaft and tissue and depends on")
+    assert "probability" not in told
+
+
+@pytest.mark.parametrize(
+    ("after", "told"),
+    [
+        (
+            3.2,
+            "to 3.20 σ on trials that its fit has not seen, 1.03 times noise and the width of the band",
+        ),
+        (1.05, "to 1.05 σ on trials that its fit has not seen;"),
+    ],
+)
+def test_what_the_band_of_a_loose_curve_allows_is_told_beside_the_residual(after, told):
+    assert told in what_is_missing(missing_with(best=seen_fit()), 8.9, after)
+
+
 def test_an_effect_of_the_library_beside_laws_that_leave_far_more_than_noise_is_told():
     missing = missing_with(beside=(LAW,), best=replace(seen_fit(), others=(free_fit(1.0).family,)))
     far = replace(missing.depends_on[0], gap_after=23.0)
@@ -218,3 +240,13 @@ def test_a_name_that_begins_with_a_vowel_has_its_article():
         LAW, variable="time", x=tuple(x), y=tuple(y), low=tuple(y - 0.01), high=tuple(y + 0.01)
     )
     assert "looks like an exponential approach" in what_is_missing(missing_with(law), 8.9)
+
+
+def test_what_a_log_does_not_determine_is_not_told_as_a_range():
+    """Two places of a ratio that the data leave open, among others that they tell."""
+    x = tuple(float(i) for i in range(8))
+    y = (1.0, 1.1, 1.2, 1.1, 1.0, 0.9, 50.0, 9e4)
+    band = (0.1,) * 6 + (1e3, 1e6)
+    low, high = ([a + sign * b for a, b in zip(y, band, strict=True)] for sign in (-1, 1))
+    law = replace(LAW, x=x, y=y, low=tuple(low), high=tuple(high), unit="-", title="stiffness")
+    assert course_of(law) == "stiffness varies between 0.9 and 1.2"

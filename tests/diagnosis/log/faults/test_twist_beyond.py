@@ -5,6 +5,7 @@ import pytest
 from analytic_log import TURNS, change_trial
 
 from diagnosis.criteria.faults import TWIST_BEYOND_SIGMA
+from diagnosis.log.faults.scatter import scatter
 from diagnosis.log.faults.twist_beyond import without_twist_beyond
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import TIP, Trial
@@ -31,6 +32,32 @@ def test_readings_are_left_out_from_the_twist_on_that_counts():
     assert "together change by 20 mm" in said
     assert "by 5.7 deg or more" in said
     assert f"not used in {left_out.sum()} of {left_out.size} samples" in said
+
+
+def test_before_the_needle_is_in_the_tissue_the_free_length_tells_nothing():
+    """A needle of 140 mm that comes from outside: free is the distance from chuck to tissue."""
+    free = np.linspace(160.0, 100.0, len(TURNS))
+    inside = TURNS.assign(
+        free_mm=free, inserted_mm=np.clip(140.0 - free, 0.0, None), tip_torque_n_mm=TORQUE_N_MM
+    )
+    trial = Trial(name="enters.csv", table=inside)
+    assert without_twist_beyond(trial, RIGIDITY_N_MM2, 0.3) == (trial, [])
+
+
+def test_a_row_that_is_too_long_is_no_shaft():
+    one = out_by(0.0)
+    row = len(TURNS) // 2
+    free = one.table["free_mm"].where(np.arange(len(TURNS)) != row, one.table["free_mm"] + 30.0)
+    trial = Trial(name="slides.csv", table=one.table.assign(free_mm=free))
+    assert without_twist_beyond(trial, RIGIDITY_N_MM2, 0.3) == (trial, [])
+
+
+def test_noise_that_is_not_claimed_is_that_of_the_readings():
+    claimed, free_of_noise = (
+        np.isnan(without_twist_beyond(out_by(20.0), RIGIDITY_N_MM2, noise)[0][TIP]).sum()
+        for noise in (scatter(TURNS[TIP].to_numpy()), 0.0)
+    )
+    assert free_of_noise == claimed > 0
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ def test_the_head_is_origin_constants_answer_and_warnings(dry):
     )
     origin, constants, what, sure, then, *warned = front(found)
     assert f"log run 7, diagnosed on 2026-02-03, needle-torsion {tool_version()}" in origin
-    assert "0.59 mm, shear modulus 27.2 GPa, damping 0.0172 N mm s / mm; 3 trials" in constants
+    assert "0.59 mm, shear modulus 27.2 GPa, damping 0.0172 N mm s / rad / mm; 3 trials" in constants
     assert [what, sure, then] == [
         f"<h1>{answer(found)[0]}</h1>",
         *(f'<p class="lead">{sentence}</p>' for sentence in answer(found)[1:]),

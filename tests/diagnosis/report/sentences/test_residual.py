@@ -105,7 +105,10 @@ LEAD = Lead(signal="tip_angle_deg", by_s=0.1, low_s=0.05, high_s=0.2, correlatio
     ("lead", "said"),
     [
         (LEAD, "The residual of tip_angle_deg leads that of base_torque_n_mm by 100 ms (95 % interval"),
-        (replace(LEAD, signal="", low_s=-0.05), "perhaps that of base_torque_n_mm, by"),
+        (
+            replace(LEAD, signal="", low_s=-0.05),
+            "not clear which residual leads: the 95 % interval of the time between them is -50 to",
+        ),
         (replace(LEAD, signal="", correlation=0.1), "correlation of 0.10 is within chance (0.20)"),
         (None, "needs both sensors"),
     ],

@@ -6,20 +6,27 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import joined, log_of, start_of_search
 
+from diagnosis.freeform.other_form import other_form
+from diagnosis.nominal_replay import replay_nominal
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.fitting import fit_all
-from diagnosis.selection.record import Decision
+from diagnosis.selection.record import Decision, RecordEntry
+from diagnosis.selection.stages.laws import presliding
 from diagnosis.selection.stages.laws.presliding import STAGE, presliding_of_dry_friction
 from diagnosis.selection.stages.single_effects import single_effects
-from diagnosis.workers import Workers
+from diagnosis.workers import Failure, Workers
 
 LEVEL = 0.006
+
+
+def log_with_presliding(rig):
+    return joined(*(log_of(rig, seed=seed, seconds=8.0) for seed in (1, 2)))
 
 
 def searched(**changes):
     """Before and after the stage, of two trials."""
     rig = RigParameters(**changes)
-    log = joined(*(log_of(rig, seed=seed, seconds=8.0) for seed in (1, 2)))
+    log = log_with_presliding(rig)
     effects = ("coulomb_friction", "tip_drag")
     state = single_effects(start_of_search(log, effects=effects), Workers())
     state = state.adding(fit_all("other", [(state.problem, ("tip_drag",))], Workers()))
@@ -41,7 +48,7 @@ def test_another_angle_is_found_and_told(early):
     assert after.problem.log.presliding_deg == pytest.approx(0.3, rel=0.1)
     assert after.coarse.log.presliding_deg == after.problem.log.presliding_deg
     assert told(after) == [
-        f"dry friction is taken to give by {after.problem.log.presliding_deg:.2g} deg before it "
+        f"dry friction is taken to give by {after.problem.log.presliding_deg:.3g} deg before it "
         "slides, not by the usual 0.1 deg"
     ]
     assert not told(before)
@@ -65,12 +72,45 @@ def test_what_has_no_dry_friction_goes_on_as_it_was(early):
         assert names[one.names] <= one.fit.cost  # if it leads, it is fitted once more
 
 
-def test_every_effect_of_dry_friction_has_it(early):
+def test_every_rig_that_is_fitted_has_it(early):
     _, after = early
-    for name, effect in after.problem.library.items():
-        rig = effect.apply(RigParameters(), *(p.start[0] for p in effect.parameters))
-        angle = after.problem.log.presliding_deg if effect.slides_dry else 0.1
-        assert rig.presliding_deg == pytest.approx(angle), name
+    angle = after.problem.log.presliding_deg
+    for problem in (after.problem, after.coarse):
+        names = ("coulomb_friction", "stiction", "drive_friction", "tip_drag")
+        for own in (problem.parameterization([name]) for name in names):
+            assert own.rig(own.joined({})).presliding_deg == angle
+    assert {c.names for c in after.singles} == {c.names for c in early[0].singles}
+
+
+def test_other_forms_of_the_law_are_compared_at_that_angle(early):
+    """At the usual one, friction that changes along the shaft would take up what the angle leaves."""
+    _, after = early
+    rig = RigParameters(kinetic_n_mm_per_mm=LEVEL, presliding_deg=0.3)
+    nominal = replay_nominal(log_with_presliding(rig))
+    begun = nominal.begun_as(after.problem, after.nominal)
+    assert begun.problem.base.presliding_deg == after.problem.log.presliding_deg
+    assert other_form(begun, after.best.fit, Workers()) is None
+
+
+def test_a_stop_on_the_way_leaves_the_state_as_it_was(early, monkeypatch):
+    before, _ = early
+    stopped = Failure(effects=("coulomb_friction",), reason="stopped early: not tried", stopped=True)
+    entry = RecordEntry(
+        stage=STAGE, effects=stopped.effects, decision=Decision.STOPPED, reason=stopped.reason
+    )
+    monkeypatch.setattr(presliding, "leading_fitted_again", lambda *_: ([], (entry,)))
+    after = presliding_of_dry_friction(before, Workers())
+    assert after.candidates == before.candidates
+    assert after.problem is before.problem
+    assert after.record[-1] == entry
+
+
+def test_a_best_that_fails_with_it_stays_as_it_was(early, monkeypatch):
+    before, _ = early
+    monkeypatch.setattr(presliding, "leading_fitted_again", lambda *_: ([], ()))
+    after = presliding_of_dry_friction(before, Workers())
+    assert after.candidates == before.candidates
+    assert after.record[-1].decision is Decision.DROPPED
 
 
 def test_it_is_fitted_once(early):
