@@ -185,6 +185,7 @@ def _fit(fit: Fit) -> dict[str, Any]:
         "status": status.termination.value,
         "message": status.message,
         "at_bound": list(status.at_bound),
+        "presliding_deg": fit.parameterization.base.presliding_deg,
     }
 
 

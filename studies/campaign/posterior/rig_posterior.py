@@ -9,6 +9,7 @@ truncated to the bounds: values outside of them are drawn again.
 """
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,9 @@ from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.sensing.bearing import PRESLIDING_DEG
 from models.errors import InvalidValue
+from models.needle import Positive
 from models.record import Record
 
 Array = NDArray[np.float64]
@@ -39,6 +42,8 @@ class RigPosterior(Record):
     bounds: tuple[tuple[float, float], ...]
     matrix: tuple[tuple[float, ...], ...]
     """Covariance."""
+    presliding_deg: Positive = PRESLIDING_DEG
+    """Angle by which dry friction gives before it slides."""
 
     @model_validator(mode="after")
     def _is_whole(self) -> "RigPosterior":
@@ -100,7 +105,7 @@ class RigPosterior(Record):
 
     def rig_with(self, values: dict[str, float]) -> RigParameters:
         """The rig with these parameter values; others of the same effects are at their first start."""
-        rig = NOMINAL
+        rig = replace(NOMINAL, presliding_deg=self.presliding_deg)
         for effect in dict.fromkeys(name.partition(".")[0] for name in values):
             own = LIBRARY[effect]
             each = (values.get(f"{effect}.{p.name}", p.start[0]) for p in own.parameters)
@@ -125,9 +130,11 @@ def read_posterior(path: Path) -> RigPosterior:
     try:
         report = json.loads(path.read_text(encoding="utf-8"))
         content = {"rig": report["rig"], **report["covariance"]}
+        held = report.get("fit") or {}
+        content["presliding_deg"] = held.get("presliding_deg", PRESLIDING_DEG)
     except (OSError, ValueError, RecursionError) as error:
         raise InvalidValue(str(path), str(error), "the report.json of a diagnosis") from error
-    except (KeyError, TypeError) as error:
+    except (KeyError, TypeError, AttributeError) as error:
         raise InvalidValue(
             str(path),
             "a file without these fields",

@@ -171,10 +171,11 @@ def test_a_set_of_effects_is_a_row_of_its_own(dry):
 
 def test_how_the_fit_ended_is_told(dry):
     fit = dry.report["fit"]
-    assert set(fit) == {"status", "message", "at_bound"}
+    assert set(fit) == {"status", "message", "at_bound", "presliding_deg"}
     assert fit["status"] == "converged: relative offset"
     assert fit["message"].startswith("converged after ")
     assert fit["at_bound"] == []
+    assert fit["presliding_deg"] == 0.1
 
 
 def test_every_decision_of_the_search_is_told(dry):

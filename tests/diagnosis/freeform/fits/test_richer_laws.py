@@ -9,9 +9,10 @@ from diagnosis_fixtures import coarse_of, log_of
 from diagnosis.criteria.freeform import CLOSED_GAP
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.freeform.families.readings import families
+from diagnosis.freeform.family import kind_of
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
 from diagnosis.freeform.fits.growth_factor import all_grown, grown_over
-from diagnosis.freeform.fits.richer_laws import RICHER_OF_ONE, richer, score_of_richer, start_of
+from diagnosis.freeform.fits.richer_laws import RICHER_OF_ONE, _finer, richer, score_of_richer, start_of
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.curve import ActsOn, Course, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -113,6 +114,15 @@ def test_a_narrow_bump_takes_a_finer_curve():
     assert found.family.name == law.family.name
     assert found.fit.gap < CLOSED_GAP < 0.9 * law.fit.gap
     assert found.score < law.score
+
+
+def test_a_finer_curve_begins_with_the_priors_of_its_law():
+    _, ranges, law = with_a_bump(width_deg=9.0)
+    known = replace(law, family=law.family.with_prior({"straight": 0.3, "rest": 4.0}))
+    finer = {family.name: family for family in families(ranges.in_more_detail)}
+    (family,) = _finer(known, finer)
+    sigma = {kind_of(p): p.prior_sigma for p in family.effect.parameters}
+    assert sigma == {"straight": 0.3, "rest": 4.0, "detail": 1.0}
 
 
 def test_a_wide_bump_does_not():

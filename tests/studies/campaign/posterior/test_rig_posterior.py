@@ -77,6 +77,9 @@ def test_a_report_is_read_and_one_without_covariance_says_what_to_do(tmp_path):
         json.dumps({"rig": content.pop("rig"), "covariance": content, "verdict": "explained"})
     )
     assert read_posterior(path) == RigPosterior(**posterior())
+    report = {"covariance": content, "rig": posterior()["rig"], "fit": {"presliding_deg": 0.12}}
+    path.write_text(json.dumps(report))
+    assert read_posterior(path).rig_with({"coulomb_friction.level": 2e-3}).presliding_deg == 0.12
     path.write_text('{"verdict": "explained"}')
     with pytest.raises(InvalidValue, match="diagnose the log again"):
         read_posterior(path)
