@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from diagnosis.assessment.experiments import experiments, has_axis, sliding_experiments
 from diagnosis.assessment.next_experiment import best_experiment, narrowest
 from diagnosis.assessment.remedies import Parameters, check_that_tells, remedies
-from diagnosis.criteria.assessment import DECISIVE_SIGMA, MOST_RUNS, WORTH_A_RUN
+from diagnosis.criteria.assessment import DECISIVE_SIGMA, KNOWN_WELL, MOST_RUNS, WORTH_A_RUN
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
@@ -52,7 +52,14 @@ def _change(problem: FitProblem, verdict: Verdict, parameters: Parameters) -> st
     if verdict.confusable:
         return f"{_check(verdict.confusable)}; if it is the former, {remedy}"
     again = "then record and diagnose again"
-    return "; ".join(filter(None, (remedy, again, _narrowed(problem, verdict))))
+    narrowed = "" if _known_well(verdict, parameters) else _narrowed(problem, verdict)
+    return "; ".join(filter(None, (remedy, again, narrowed)))
+
+
+def _known_well(verdict: Verdict, parameters: Parameters) -> bool:
+    """Whether the interval of the leading parameter of the strongest effect is narrow as it is."""
+    own = next(iter(parameters.get(verdict.effects[0], {}).values()), None)
+    return own is not None and own.high - own.low < KNOWN_WELL * abs(own.value)
 
 
 def _check(confusable: Sequence[tuple[str, ...]]) -> str:
@@ -80,7 +87,7 @@ def _narrowed(problem: FitProblem, verdict: Verdict) -> str:
     if not feasible:
         return ""
     found = narrowest(problem, fit, fit.parameterization.owners.index(effect.name), feasible)
-    name = f"{effect.name} {effect.parameters[0].name}"
+    name = f"the {effect.parameters[0].name} of {effect.title}"
     if found.factor > WORTH_A_RUN:
         return f"no single run that this rig can do would narrow the interval of {name} by a tenth"
     return (

@@ -40,6 +40,9 @@ CERTAIN_PROBABILITY = 0.999
 """Probabilities above it are told as above it: no library has everything."""
 SHOWN_PROBABILITY = 0.0005
 """Probabilities below it round to 0.000, and are not told."""
+KNOWN_WELL = 0.02
+"""Width of a 95 % interval / the value, below which no run is proposed to narrow it. A choice: no rig
+keeps a value to a hundredth."""
 WORTH_A_RUN = 0.9
 """Times its interval to which a further run has to bring a parameter to be proposed for that alone: a
 tenth is the least that anybody sees."""

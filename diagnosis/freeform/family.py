@@ -15,6 +15,8 @@ KINDS = STRAIGHT, REST, DETAIL = "straight", "rest", "detail"
 """Parts of a curve, by the names of their coordinates."""
 VISCOUS = "N mm s / rad / mm"
 """Unit of damping along the shaft: laws in it multiply the damping of the tissue."""
+TRIALS = "number of the trial"
+"""Unit of what a law with a value for each trial is over."""
 FARTHEST = 12.0  # of a coordinate, in its prior's first guess
 FINE = 0.3  # of the largest change of a curve by a coordinate of its rest
 

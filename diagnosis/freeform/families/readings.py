@@ -230,7 +230,7 @@ def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
         ),
         places=added.places,
         says=added.says,
-        title=added.title,
+        title=f"{added.title}, as a share of its change," if _is_a_share(added) else added.title,
         curve=partial(_factors if added.acts_on in FACTORS else _points, curve),
         x_unit=_x_unit(added),
         unit=_unit(added),
@@ -254,13 +254,20 @@ def _size(added: Added, ranges: LogRanges) -> float:
 def _unit(added: Added) -> str:
     if added.variable is Variable.PAST and added.of_the_drive:
         return "deg / N mm"
-    if added.variable in (Variable.PAST, Variable.TURNED_BY):
-        return "N mm / deg" if added.acts_on is ActsOn.DRIVE_TORQUE else "-"
-    if added.acts_on in FACTORS:
+    if _is_a_share(added) or added.acts_on in FACTORS:
         return "-"
+    if added.variable in (Variable.PAST, Variable.TURNED_BY):
+        return "N mm / deg"
     if added.acts_on in _SLIPS:
         return "deg/s"
     return "N mm" if added.acts_on in (ActsOn.DRIVE_TORQUE, ActsOn.TORQUE_READING) else "deg"
+
+
+def _is_a_share(added: Added) -> bool:
+    """Whether its curve is of shares of what it acts on, by which that lags."""
+    lags = added.variable in (Variable.PAST, Variable.TURNED_BY)
+    of_twist = added.variable is Variable.PAST and added.of_the_drive
+    return lags and not of_twist and added.acts_on is not ActsOn.DRIVE_TORQUE
 
 
 def _x_unit(added: Added) -> str:

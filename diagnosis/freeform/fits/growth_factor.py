@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Parameter
-from diagnosis.freeform.family import Family, Points, coordinates_of, of_trials
+from diagnosis.freeform.family import TRIALS, Family, Points, coordinates_of, of_trials
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, bent_curve
 from diagnosis.replay.curve import FACTORS, ActsOn, Course, Curve
@@ -69,7 +69,7 @@ def grown_in_trials(family: Family, trials: Sequence[str]) -> Family:
         by=_OF_TRIALS,
         says="time",
         curve=partial(_factor_in_trials, family),
-        x_unit="number of the trial",
+        x_unit=TRIALS,
     )
 
 

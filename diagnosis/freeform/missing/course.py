@@ -4,6 +4,7 @@ import statistics
 from collections.abc import Sequence
 from itertools import pairwise
 
+from diagnosis.freeform.family import TRIALS
 from diagnosis.freeform.law_curve import Law
 
 _WIDEST, _FEWEST = 4.0, 3  # width of a band that tells something, of the median of |curve|; points
@@ -32,6 +33,8 @@ def course_of(law: Law) -> str:
     if abs(rises) >= _MOSTLY * (high - low):
         verb = "rises" if rises > 0 else "falls"
         between = f"between {x[0]:.3g} and {x[-1]:.3g}{unit}"
+        if law.x_unit == TRIALS:
+            between = f"from trial {x[0]:.0f} to trial {x[-1]:.0f}"
         return f"{law.title} {verb} from {y[0]:.3g} to {y[-1]:.3g}{own} {between}"
     return f"{law.title} varies between {low:.3g} and {high:.3g}{own}"
 

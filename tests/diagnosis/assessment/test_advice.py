@@ -11,6 +11,7 @@ from diagnosis.assessment.advice import advise
 from diagnosis.assessment.experiments import Experiment
 from diagnosis.assessment.next_experiment import Narrowing, Proposal
 from diagnosis.assessment.uncertainty.intervals import Interval
+from diagnosis.criteria.assessment import KNOWN_WELL
 from diagnosis.effects import LIBRARY
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
@@ -97,9 +98,13 @@ CHANGE = "add viscous drag of 0.2 N mm s / rad at the tip to the model"
     [
         (
             0.5,
-            "to know tip_drag damping better, turn slowly: that would narrow its interval to about 50 %",
+            "to know the damping of viscous drag at the tip better, turn slowly: that would narrow its "
+            "interval to about 50 %",
         ),
-        (0.95, "no single run that this rig can do would narrow the interval of tip_drag damping"),
+        (
+            0.95,
+            "no single run that this rig can do would narrow the interval of the damping of viscous",
+        ),
     ],
 )
 def test_an_explanation_is_told_with_what_to_change_and_what_would_narrow_it(monkeypatch, factor, said):
@@ -107,6 +112,13 @@ def test_an_explanation_is_told_with_what_to_change_and_what_would_narrow_it(mon
     monkeypatch.setattr(advice, "narrowest", lambda *_: run)
     found = advise(PROBLEM, SETTLED, NOMINAL, LEFT, DRAG)
     assert found.startswith(f"{CHANGE}; then record and diagnose again; {said}")
+
+
+def test_what_is_known_well_needs_no_further_run(monkeypatch):
+    monkeypatch.setattr(advice, "narrowest", pytest.fail)
+    low, high = (0.2 + sign * 0.49 * KNOWN_WELL * 0.2 for sign in (-1, 1))
+    known = {"tip_drag": {"damping": replace(DRAG["tip_drag"]["damping"], low=low, high=high)}}
+    assert advise(PROBLEM, SETTLED, NOMINAL, LEFT, known) == f"{CHANGE}; then record and diagnose again"
 
 
 def test_without_time_what_to_change_is_told_alone(monkeypatch):

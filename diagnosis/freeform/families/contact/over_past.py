@@ -34,7 +34,7 @@ _UNITS = {
     ContactVariable.SLIP: "deg",
     ContactVariable.AGE: "s",
     ContactVariable.HEAT: "(rad/s)^2 of late",
-    ContactVariable.BROKEN: "of its structure",
+    ContactVariable.BROKEN: "of its structure broken",
     ContactVariable.TURNED: "deg since it turned back",
 }
 _WORDS = {

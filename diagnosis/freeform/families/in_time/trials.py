@@ -16,7 +16,15 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.families.readings import SENSOR
-from diagnosis.freeform.family import VISCOUS, Family, Points, from_neutral, most_probable, of_trials
+from diagnosis.freeform.family import (
+    TRIALS,
+    VISCOUS,
+    Family,
+    Points,
+    from_neutral,
+    most_probable,
+    of_trials,
+)
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.curve import FACTORS, ActsOn, Curve
@@ -121,7 +129,7 @@ def _of_each_trial(quantity: _Quantity, trials: Sequence[str]) -> Family:
         says="time",
         title=f"{quantity.words}, trial by trial",
         curve=partial(_points, quantity),
-        x_unit="number of the trial",
+        x_unit=TRIALS,
         unit=quantity.unit,
     )
 
@@ -161,7 +169,7 @@ def _drift(quantity: _Quantity, trials: Sequence[str]) -> Family:
         says="time",
         title=f"{words} at the end of each trial",
         curve=_ends_of_drifts,
-        x_unit="number of the trial",
+        x_unit=TRIALS,
         unit=quantity.unit,
     )
 
@@ -193,7 +201,7 @@ def _friction(ranges: LogRanges, trials: Sequence[str]) -> Family:
         says="time",
         title="dry friction along the shaft, trial by trial",
         curve=_levels,
-        x_unit="number of the trial",
+        x_unit=TRIALS,
         unit="N mm / mm",
     )
 

@@ -11,6 +11,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.families.angle import families as families_over_angles
+from diagnosis.freeform.family import TRIALS
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.missing.course import course_of
 from diagnosis.freeform.missing.in_words import DOUBT, laws_of, repeating, what_is_missing
@@ -250,3 +251,15 @@ def test_what_a_log_does_not_determine_is_not_told_as_a_range():
     low, high = ([a + sign * b for a, b in zip(y, band, strict=True)] for sign in (-1, 1))
     law = replace(LAW, x=x, y=y, low=tuple(low), high=tuple(high), unit="-", title="stiffness")
     assert course_of(law) == "stiffness varies between 0.9 and 1.2"
+
+
+def test_a_law_of_trials_is_told_from_trial_to_trial():
+    law = replace(
+        LAW,
+        x=(1.0, 2.0, 3.0),
+        y=(0.1, 0.2, 0.4),
+        low=(0.1, 0.2, 0.4),
+        high=(0.1, 0.2, 0.4),
+        x_unit=TRIALS,
+    )
+    assert course_of(law).endswith("rises from 0.1 to 0.4 N mm / mm from trial 1 to trial 3")
