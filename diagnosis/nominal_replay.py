@@ -73,7 +73,8 @@ class NominalReplay:
           SimulationFailed: the nominal rig cannot be simulated.
         """
         same = self.problem.library is problem.library and self.problem.base == problem.base
-        laws = replace(self.problem, library=problem.library, base=problem.base)
+        log = replace(self.problem.log, presliding_deg=problem.log.presliding_deg)
+        laws = replace(self.problem, library=problem.library, log=log)
         if len(late_starts_of(problem.log)) == len(late_starts_of(self.problem.log)):
             return self if same else replace(self, problem=laws)
         own = replace(laws, log=problem.log, nuisance=problem.nuisance)

@@ -54,6 +54,10 @@ class SlipRate(StrEnum):
     """d theta/dt at a fixed place in the tissue, as in the paper's equation (9)."""
 
 
+PRESLIDING_DEG = 0.1
+"""Angle at which a dry element slips, of a rig of which nothing else is known."""
+
+
 class Discretisation(Record):
     """Elements, step and arrangement.
 
@@ -66,7 +70,7 @@ class Discretisation(Record):
     free_elements: Annotated[int, Field(ge=1, le=1000)] | None = None
     """Along the free shaft (Eulerian mesh); None: 1, or 8 where a sheath rubs."""
     step_s: Annotated[float, Field(gt=0, le=LONGEST_STEP_S)] = 0.01
-    presliding_deg: Annotated[float, Field(gt=0, le=5)] = 0.1
+    presliding_deg: Annotated[float, Field(gt=0, le=5)] = PRESLIDING_DEG
     """Angle at which a dry element slips."""
     order: Annotated[int, Field(ge=1, le=3)] = 2
     """Of the step: 2, or 3 where a larger step is to be as accurate, or 1 for MuJoCo's own step, to

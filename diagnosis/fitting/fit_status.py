@@ -214,7 +214,7 @@ class Stopping:
         """Whether two steps in turn took off little of what the model promised, which is little now."""
         before, promised = self._before
         self._before = cost, predicted
-        self._crept = self._crept + 1 if before - cost < _CREEPING * promised else 0
+        self._crept = self._crept + 1 if 0.0 < before - cost < _CREEPING * promised else 0
         if math.isinf(self.far):  # it goes to its end
             return False
         return self._crept > 1 and predicted < _LITTLE and cost <= GAP_LIMIT**2 * samples

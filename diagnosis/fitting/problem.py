@@ -27,7 +27,6 @@ class FitProblem:
     Attributes:
       nuisance: effects that every fit includes.
       library: effects with bounds and starts for a rig of this size.
-      base: the rig that effects change: the nominal one, but for what a log says of laws of the model.
       tolerance_sigma: tolerance of fits, in standard deviations of their parameters.
       callback_alone: whether fits end without MuJoCo's steps, too: those that only tell which to do
         again (sim.needles.callback_loop).
@@ -40,7 +39,6 @@ class FitProblem:
     nuisance: tuple[Effect, ...]
     resolution: Resolution = FINE
     library: Mapping[str, Effect] = field(default_factory=lambda: FITTED)
-    base: RigParameters = NOMINAL
     tolerance_sigma: float = 0.02
     callback_alone: bool = False
     differences_halved: bool = False
@@ -50,6 +48,11 @@ class FitProblem:
         """Number of readings of all sensors."""
         trials = self.log.trials
         return sum(int(np.isfinite(own).sum()) for trial in trials for own in trial.readings.values())
+
+    @property
+    def base(self) -> RigParameters:
+        """The rig that effects change: the nominal one, but for what the log says of its laws."""
+        return replace(NOMINAL, presliding_deg=self.log.presliding_deg)
 
     @property
     def of_differences(self) -> "FitProblem":

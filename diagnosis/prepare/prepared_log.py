@@ -18,7 +18,7 @@ from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.prepare.motion.between_samples import between_samples
 from diagnosis.prepare.motion.inertia import InertiaTorque, inertia_warning, smooth_motion
 from diagnosis.prepare.start.late_start import LateStart, late_start_warning
-from sim.discretisation import Discretisation
+from sim.discretisation import PRESLIDING_DEG
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
@@ -123,7 +123,6 @@ DRAGGED = (
     "elastic tissue is taken to go along with the shaft where that slides; if it stays where it is, "
     "nothing explains the log"
 )
-_USUAL_DEG: float = Discretisation.model_fields["presliding_deg"].default
 _SLIDES = "dry friction is taken to give by {:.3g} deg before it slides, not by the usual {:g} deg"
 
 
@@ -136,7 +135,7 @@ class PreparedLog:
       means_of: number of readings that a sample is the mean of.
       noise_left: noise in the low band of smoothed readings / that of a reading, by sensor.
       tissue_dragged: whether elastic tissue is taken to go along with the shaft where that slides.
-      presliding_deg: angle by which dry friction is taken to give before it slides; None: as usual.
+      presliding_deg: angle by which dry friction is taken to give before it slides.
     """
 
     rig: NominalRig
@@ -145,7 +144,7 @@ class PreparedLog:
     means_of: int = 1
     noise_left: Mapping[str, float] = field(default_factory=dict)
     tissue_dragged: bool = False
-    presliding_deg: float | None = None
+    presliding_deg: float = PRESLIDING_DEG
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -153,7 +152,8 @@ class PreparedLog:
         tissue is dragged along, and about dry friction that slides after another angle.
         """
         dragged = DRAGGED if self.tissue_dragged else ""
-        slides = "" if self.presliding_deg is None else _SLIDES.format(self.presliding_deg, _USUAL_DEG)
+        usual = self.presliding_deg == PRESLIDING_DEG
+        slides = "" if usual else _SLIDES.format(self.presliding_deg, PRESLIDING_DEG)
         each = [inertia_warning(trial.name, trial.inertia) for trial in self.trials]
         late = {trial.name: trial.late_start for trial in self.trials if trial.late_start}
         return tuple(

@@ -11,11 +11,10 @@ from functools import cached_property, lru_cache
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import BASE
 from diagnosis.replay.free_law import FreeLaw
-from diagnosis.replay.sensing.bearing import PRESLIDING_DEG
 from models.drive import Drive
 from models.needle import Needle
 from models.tissue import Interface, Layer, Tissue
-from sim.discretisation import Arrangement, Discretisation, Mesh
+from sim.discretisation import PRESLIDING_DEG, Arrangement, Discretisation, Mesh
 from sim.needles.setup import Setup
 from sim.schedule import Schedule
 

@@ -41,8 +41,9 @@ from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 from scipy.ndimage import uniform_filter1d
 
-from diagnosis.replay.sensing.bearing import PRESLIDING_DEG, stopped_at
+from diagnosis.replay.sensing.bearing import stopped_at
 from diagnosis.replay.sensing.filters import first_order
+from sim.discretisation import PRESLIDING_DEG
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]

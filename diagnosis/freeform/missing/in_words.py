@@ -28,7 +28,7 @@ SEEN = "on the trials of its fit"
 UNSEEN = "on trials that its fit has not seen"
 _HINT = "still far above the noise: take the curve as a hint only"
 _OTHERS = 3
-_LOOSE = 1.05  # times what it is over noise and the band of the curve, from which that is told beside it
+_LOOSE = 1.05  # times the residual in units of noise and the curve's band, from which that is told too
 _LEAST_TOLD, _MOST_TOLD = 0.05, 0.95  # of the readings: as good as none, or all
 _NEARLY = 0.25  # probability from which another place is told
 _TURN_DEG = 360.0
@@ -40,7 +40,7 @@ def what_is_missing(missing: Missing, gap_before: float, gap_after: float | None
 
     Args:
       gap_before: gap of the nominal rig, in sigma.
-      gap_after: gap with the law, in sigma; None: as over noise and the band of its curve.
+      gap_after: gap with the law, in sigma; None: that in units of noise and the band of its curve.
     """
     if missing.law is None:
         return f"No free-form law that was tried does better than the library. {DOUBT}."

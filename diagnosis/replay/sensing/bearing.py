@@ -10,12 +10,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from sim.discretisation import Discretisation
+from sim.discretisation import PRESLIDING_DEG
 
 Array = NDArray[np.float64]
-
-PRESLIDING_DEG: float = Discretisation.model_fields["presliding_deg"].default
-"""Of a rig of which nothing else is known."""
 
 
 def bearing_torque_n_mm(

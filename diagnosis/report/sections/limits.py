@@ -9,7 +9,7 @@ from diagnosis.result import Diagnosis
 _LIMITS = (
     "How strong each further effect may be without being seen in these trials: an effect that is "
     "stronger would be seen in 95 of 100 such logs. The picture compares each limit with a property "
-    "of this rig. Limits on factors apply both ways."
+    "of this rig."
 )
 
 

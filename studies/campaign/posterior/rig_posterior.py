@@ -20,10 +20,10 @@ from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
-from diagnosis.replay.sensing.bearing import PRESLIDING_DEG
 from models.errors import InvalidValue
 from models.needle import Positive
 from models.record import Record
+from sim.discretisation import PRESLIDING_DEG
 
 Array = NDArray[np.float64]
 

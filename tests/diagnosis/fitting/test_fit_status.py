@@ -211,18 +211,22 @@ class Bumpy(Line):
         self.best = np.linalg.lstsq(-self.slopes, self.read, rcond=None)[0]
 
 
+def ended(stopping, objective, away):
+    """How a fit ends that is so far from the best at one Jacobian after the other, and at which."""
+    for taken, off in enumerate(away):
+        x = objective.best + np.array([off, 0.0])
+        try:
+            stopping.jacobian(x, objective(x))
+        except Ended as end:
+            return end.termination, taken
+    return None
+
+
 def ends_at(objective, promised, far):
     """After how many Jacobians a fit ends that is promised such a share of what is beyond noise."""
     left = objective(objective.best)
     off = np.sqrt(promised * (left @ left - 200) / 200)
-    x = objective.best + np.array([off, 0.0])
-    stopping = Stopping(objective, 1e-3, far=far)
-    for taken in range(2):
-        try:
-            stopping.jacobian(x, objective(x))
-        except Ended as ended:
-            return ended.termination, taken
-    return None
+    return ended(Stopping(objective, 1e-3, far=far), objective, [off] * 3)
 
 
 @pytest.mark.parametrize(
@@ -284,14 +288,8 @@ def ends_where_steps_take(share, promised, times=1.0, far=NEAR_FLOOR):
       times: cost of what no line can follow / that of noise.
     """
     bumpy = Bumpy(times)
-    stopping = Stopping(bumpy, 1e-3, far=far)
-    for taken in range(5):
-        x = bumpy.best + np.array([np.sqrt(promised * (1 - share) ** taken / 200), 0.0])
-        try:
-            stopping.jacobian(x, bumpy(x))
-        except Ended as ended:
-            return ended.termination, taken
-    return None
+    away = np.sqrt(promised * (1 - share) ** np.arange(5) / 200)
+    return ended(Stopping(bumpy, 1e-3, far=far), bumpy, away)
 
 
 @pytest.mark.parametrize(

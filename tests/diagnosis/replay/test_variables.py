@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from diagnosis.replay.sensing.bearing import PRESLIDING_DEG
 from diagnosis.replay.variables import (
     OF_THE_NEEDLE,
     RESTED_S,
@@ -15,6 +14,7 @@ from diagnosis.replay.variables import (
     of_inputs,
     of_needle,
 )
+from sim.discretisation import PRESLIDING_DEG
 from sim.schedule import Schedule
 
 STEP_S = 0.01

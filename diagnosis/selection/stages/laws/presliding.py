@@ -17,7 +17,6 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.replay.sensing.bearing import PRESLIDING_DEG
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, RecordEntry, dropped, noted
@@ -25,6 +24,7 @@ from diagnosis.selection.screening import screen
 from diagnosis.selection.stages.stage import leading_fitted_again, leading_sets, stopped_in
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Failure, Task, Workers
+from sim.discretisation import PRESLIDING_DEG
 
 STAGE = "presliding of dry friction"
 
@@ -58,7 +58,8 @@ def presliding_of_dry_friction(state: SearchState, workers: Workers) -> SearchSt
     """The state with the presliding angle that the log asks for, where dry friction leads."""
     best = state.best
     near = best.fit.cost <= NEAR_FLOOR * best.fit.samples
-    if state.problem.log.presliding_deg is not None or not (near and _slides_dry(best)):
+    fitted = state.problem.log.presliding_deg != PRESLIDING_DEG
+    if fitted or not (near and _slides_dry(best)):
         return state
     asked = (PRESLIDING_LEAD + math.log(best.fit.samples)) * max(1.0, best.fit.gap**2)
     open_angle = replace(state.problem, library={**state.problem.library, ANGLE.name: ANGLE})
@@ -114,8 +115,7 @@ def _with_angle(state: SearchState, angle_deg: float, workers: Workers) -> Searc
 
 
 def _sliding(problem: FitProblem, angle_deg: float) -> FitProblem:
-    log = replace(problem.log, presliding_deg=angle_deg)
-    return replace(problem, log=log, base=replace(problem.base, presliding_deg=angle_deg))
+    return replace(problem, log=replace(problem.log, presliding_deg=angle_deg))
 
 
 def _fitted_again(

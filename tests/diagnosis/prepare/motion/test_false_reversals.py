@@ -9,7 +9,8 @@ from diagnosis_fixtures import BASE, turns
 from diagnosis.criteria.prepare import STANDSTILL_SAMPLES
 from diagnosis.prepare.motion.base_smoothing import smooth_base
 from diagnosis.prepare.motion.false_reversals import turning_points, without_false_reversals
-from diagnosis.replay.sensing.bearing import PRESLIDING_DEG, stopped_at
+from diagnosis.replay.sensing.bearing import stopped_at
+from sim.discretisation import PRESLIDING_DEG
 
 STEP_S = 0.01
 ROUNDING = 1e-12  # of angles below 100 deg

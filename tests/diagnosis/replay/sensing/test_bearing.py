@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from diagnosis.replay.sensing.bearing import PRESLIDING_DEG, bearing_torque_n_mm
+from diagnosis.replay.sensing.bearing import bearing_torque_n_mm
+from sim.discretisation import PRESLIDING_DEG
 
 
 def test_it_sticks_up_to_the_presliding_angle_and_then_slides_at_its_level():
