@@ -46,8 +46,8 @@ def _sure_of_one(found: Diagnosis) -> str:
     if shared and all(names - shared <= delays for names in sets):
         certain = [name for name in found.verdict.confusable[0] if name in shared]
         return (
-            f"Sure of {titles(certain)}; open is only whether a sensor is late, or filters its "
-            "readings, which look the same here"
+            f"Sure of {titles(certain)}; open is only whether a sensor is late: a filter in it, or "
+            "neither, fits as well"
         )
     first = _probability_of(found, found.verdict.confusable[0])
     return f"Sure that it is one of these, but not which one (probability of the first: {first:.3f})"

@@ -42,7 +42,7 @@ def test_where_only_a_late_sensor_is_open_what_is_sure_is_told(dry):
     sets = (("coulomb_friction",), ("coulomb_friction", "torque_sensor_delay"))
     _, sure, _ = answer(concluding(dry.found, kind=VerdictKind.UNDECIDED, confusable=sets))
     assert sure.startswith(
-        f"Sure of {titles(('coulomb_friction',))}; open is only whether a sensor is late, or filters"
+        f"Sure of {titles(('coulomb_friction',))}; open is only whether a sensor is late: a filter"
     )
     others = (*sets, ("stiction",))
     _, sure, _ = answer(concluding(dry.found, kind=VerdictKind.UNDECIDED, confusable=others))
