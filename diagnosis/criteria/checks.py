@@ -1,6 +1,6 @@
 """Columns that cannot belong together, other units, and what is used with a warning (log/checks/)."""
 
-# Consistency: columns that no passive needle can have produced together (log/checks/consistency.py)
+# Consistency: columns that no passive needle can have produced together (log/contradictions/)
 
 LARGE_TURN_DEG = 20.0
 """Physical: smaller motions are not judged; noise and play of a rig are far below."""
@@ -29,6 +29,10 @@ BACKWARD_SHARE = 0.2
 TORQUE_OVER_TWIST = 5.0
 """Physical: torque over what twists the nominal shaft; friction near the chuck gives up to about 2.
 Where the tip is not measured, over what the swing of the base does: 1.43 at most in 94 logs."""
+
+OTHER_UNIT_SWING = 5.0
+"""Factor within which the swing of a trial in another unit agrees with that unit: half of sqrt(57) or
+less, the middle between two units, and more than what depth and speed do to a lag."""
 
 # Scales: what is in another unit than the rig's own (log/checks/)
 

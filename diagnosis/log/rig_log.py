@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from diagnosis.log.checks.angle_wraps import refuse_wraps
-from diagnosis.log.checks.consistency import refuse_contradictions
 from diagnosis.log.checks.heavy_shaft import heavy_shaft_warnings, refuse_kg_m3
 from diagnosis.log.checks.lengths import refuse_impossible_lengths
 from diagnosis.log.checks.noise_claims import far_claims
@@ -17,6 +16,8 @@ from diagnosis.log.checks.plausibility import plausibility_warnings
 from diagnosis.log.checks.repeated_trials import refuse_repeated_trials
 from diagnosis.log.checks.time_scale import lag_warnings
 from diagnosis.log.checks.torque_scale import torque_warnings
+from diagnosis.log.contradictions.consistency import refuse_contradictions
+from diagnosis.log.contradictions.other_units import refuse_other_units
 from diagnosis.log.faults.mains_hum import without_hum
 from diagnosis.log.faults.saturated import ends_of_ranges
 from diagnosis.log.faults.sensor_faults import without_faults
@@ -86,6 +87,7 @@ def read_rig_log(folder: Path) -> RigLog:
     trials, hums = without_hum(trials, noise)
     warnings += hums
     refuse_repeated_trials(paths, trials)
+    refuse_other_units(paths, trials, noise)
     if not any(trial.has(sensor) for trial in trials for sensor in SENSORS):
         raise UnusableLog(
             f"{folder}: expected readings of {' or '.join(SENSORS)} in one trial at least, found none "

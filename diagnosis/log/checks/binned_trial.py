@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
+from diagnosis.criteria.checks import LARGE_TURN_DEG
 from diagnosis.log.trial import Trial
 
 Array = NDArray[np.float64]
@@ -85,3 +86,16 @@ def lagging(driving: Array, lag_s: float, bin_s: float) -> Array:
     """A signal after a first-order lag, starting at rest, (N,)."""
     gain = 1 - np.exp(-bin_s / lag_s) if lag_s else 1.0
     return np.asarray(lfilter([gain], [1, gain - 1], driving - driving[0]))
+
+
+def both_turn(turning: BinnedTrial) -> bool:
+    """Whether base and tip turn far enough to be judged."""
+    base, tip = turning.base_angle_deg, turning.tip_angle_deg
+    return tip.size > 0 and bool(min(np.ptp(base), 2 * np.ptp(tip)) >= LARGE_TURN_DEG)
+
+
+def correlation(one: Array, other: Array) -> float:
+    """Correlation of two signals; 0 if one of them does not change."""
+    if np.ptp(one) == 0 or np.ptp(other) == 0:
+        return 0.0
+    return float(np.corrcoef(one, other)[0, 1])

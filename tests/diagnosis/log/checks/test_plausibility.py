@@ -23,6 +23,19 @@ IMPLAUSIBLE = [
     ),
     (lambda t: t.iloc[150:], r"tip_angle_deg starts away from base_angle_deg"),
     (lambda t: t.drop(columns="tip_angle_deg"), r"no reading of tip_angle_deg"),
+]
+
+
+@pytest.mark.parametrize(("change", "said"), IMPLAUSIBLE)
+def test_doubtful_data_is_used_with_a_warning(log, change, said):
+    change_trial(log, change)
+    found = read_rig_log(log)
+    assert len(found.trials) == 2
+    assert all("turns.csv" in warning for warning in found.warnings)
+    assert any(re.search(said, warning) for warning in found.warnings), found.warnings
+
+
+OTHER_UNITS = [
     (lambda t: t.assign(tip_angle_deg=t["tip_angle_deg"] / 57.3), r"tip_angle_deg turns 0.0.*radians"),
     (
         lambda t: t.assign(base_angle_deg=t["base_angle_deg"] / 57.3),
@@ -35,13 +48,12 @@ IMPLAUSIBLE = [
 ]
 
 
-@pytest.mark.parametrize(("change", "said"), IMPLAUSIBLE)
-def test_doubtful_data_is_used_with_a_warning(log, change, said):
-    change_trial(log, change)
-    found = read_rig_log(log)
-    assert len(found.trials) == 2
-    assert all("turns.csv" in warning for warning in found.warnings)
-    assert any(re.search(said, warning) for warning in found.warnings), found.warnings
+@pytest.mark.parametrize(("change", "said"), OTHER_UNITS)
+def test_a_log_in_another_unit_is_used_with_a_warning(log, change, said):
+    """All its trials are: of one alone the others say that its unit is wrong (test_other_units.py)."""
+    for name in ("turns.csv", "slides.csv"):
+        change_trial(log, change, name)
+    assert any(re.search(said, warning) for warning in read_rig_log(log).warnings)
 
 
 @pytest.mark.parametrize(("column", "field"), [("tip_angle_deg", "tip_angle_noise_deg")])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from analytic_log import (
     CORNERS,
+    SLIDES,
     TIP,
     TURNS,
     behind,
@@ -17,7 +18,7 @@ from analytic_log import (
     table,
 )
 
-from diagnosis.log.checks.consistency import refuse_contradictions
+from diagnosis.log.contradictions.consistency import refuse_contradictions
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import Trial, UnusableLog
 
@@ -99,12 +100,13 @@ LEGITIMATE = {
 
 def test_angles_in_radians_are_not_taken_for_swapped(log):
     """Their torque is far beyond the twist, and would fit the tip's place."""
-    strong = TURNS.assign(
-        base_angle_deg=np.radians(TURNS["base_angle_deg"]),
-        tip_angle_deg=np.radians(TURNS["tip_angle_deg"]),
-        base_torque_n_mm=20 * TURNS["base_torque_n_mm"],
-    )
-    strong.to_csv(log / "turns.csv", index=False)
+    for name, trial in (("turns.csv", TURNS), ("slides.csv", SLIDES)):
+        strong = trial.assign(
+            base_angle_deg=np.radians(trial["base_angle_deg"]),
+            tip_angle_deg=np.radians(trial["tip_angle_deg"]),
+            base_torque_n_mm=20 * trial["base_torque_n_mm"],
+        )
+        strong.to_csv(log / name, index=False)
     assert any("angles in rad" in warning for warning in read_rig_log(log).warnings)
 
 

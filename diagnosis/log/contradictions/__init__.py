@@ -1,0 +1,1 @@
+"""What one log cannot hold: columns or trials that contradict each other."""
