@@ -143,12 +143,20 @@ def _concluded(
     last = replace(last, verdict=plainly_named(verdict, last.problem))
     heard(CHECKING, 1, 1)
     heard(ASSESSING, 0, 1)
-    assessment = assess(
-        log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, workers
-    )
+    assessment = _assessed(log, nominal, last, found, workers)
+    if last.verdict.effects and (why_not := assessment.gap.refutes):
+        last = _refuted(last, why_not)
+        assessment = _assessed(log, nominal, last, found, workers)
     last, assessment = _without_absent(last, assessment)
     heard(ASSESSING, 1, 1)
     return last, assessment
+
+
+def _assessed(
+    log: RigLog, nominal: NominalReplay, judged: Judged, found: SearchState, workers: Workers
+) -> Assessment:
+    problem, coarse, verdict = judged.problem, judged.coarse, judged.verdict
+    return assess(log, problem, coarse, nominal.predictions, verdict, found.effects, workers)
 
 
 def _early_stop(stop: StopSignal, search: bool) -> EarlyStop | None:
@@ -165,11 +173,14 @@ def _of_another_form(judged: Judged, nominal: NominalReplay, workers: Workers) -
         return judged
     best = verdict.best.fit
     form = workers.stop.unless_due(OTHER_FORMS, lambda: other_form(nominal, best, workers))
-    if form is None:
-        return judged
-    entry = dropped("verdict", [verdict.best], form.in_words)
+    return judged if form is None else _refuted(judged, form.in_words)
+
+
+def _refuted(judged: Judged, why_not: str) -> Judged:
+    """The same, unknown: the explanation is none, for the reason given."""
+    entry = dropped("verdict", [judged.verdict.best], why_not)
     plain = _without_drift(judged)
-    return replace(plain, verdict=refuted(plain.verdict, form.in_words), record=(*judged.record, *entry))
+    return replace(plain, verdict=refuted(plain.verdict, why_not), record=(*judged.record, *entry))
 
 
 def _without_drift(judged: Judged) -> Judged:

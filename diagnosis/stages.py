@@ -97,6 +97,7 @@ STAGES = {
     "jumps of readings": _coarse("fitting with jumps of readings", 0.3, 0, 0),
     "drift of the torque sensor": _coarse("fitting with a drift of the torque sensor", 0.3, 0, 14),
     "drift of the tip sensor": _coarse("fitting with a drift of the tip sensor", 0.3, 0, 0),
+    "starts and another imperfection": _whole("fitting with starts, and a drift of a sensor", 1.0, 0, 0),
     "outliers and another imperfection": _whole(
         "fitting without outliers, with another imperfection", 1.0, 0, 0
     ),

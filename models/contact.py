@@ -10,11 +10,16 @@ Its torque is multiplied by a curve over one of
     turned_by
             angle by which the shaft has slipped there since it turned back, deg: it grows with the slip
             one way; the other way it is forgotten within a slip of `renewal`, and grows again
+    aligned share of the fibres that lie along the present direction of slip, which lays them:
+            (1 + n sign(torque)) / 2,    dn / dt = (sign(slip rate) - n) |slip rate| / renewal
 
 (age: Dieterich's law of ageing, J. Geophys. Res. 84 (1979); broken: Moore's law of thixotropy, Trans.
 Brit. Ceramic Soc. 58 (1959)), or the stiffness of yielding tissue by one over
 
     twist   angle by which the tissue is twisted there, either way, deg: tissue that hardens or softens
+    strained
+            the largest twist so far, deg: tissue that softens for good (Mullins, Rubber Chemistry and
+            Technology 42 (1969))
 
 The curve is given at places that are
 close near 0, scale (exp(u) - 1) with even u, and level beyond the last one.
@@ -42,7 +47,9 @@ class ContactVariable(StrEnum):
     HEAT = "heat"
     BROKEN = "broken"
     TURNED = "turned_by"
+    ALIGNED = "aligned"
     TWIST = "twist"
+    STRAINED = "strained"
 
 
 class ContactCurve(Record):
@@ -55,10 +62,12 @@ class ContactCurve(Record):
     last: Positive
     """Place of the last factor, in the same unit."""
     renewal_deg: Positive = 1.0
-    """Slip that renews a contact, breaks its structure by a factor e, or after which it has turned back:
-    of age, broken and turned_by alone."""
+    """Slip that renews a contact, breaks its structure or lays its fibres by a factor e, or after which
+    it has turned back: of age, broken, aligned and turned_by alone."""
     fading_s: Positive = 1.0
     """In which heat fades, or structure heals, by a factor e: of heat and broken alone."""
+    first_broken: float = Field(default=0.0, ge=0, le=1)
+    """Share of its structure that is broken where shaft and tissue first touch: of broken alone."""
 
     @property
     def places(self) -> Array:

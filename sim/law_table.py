@@ -31,7 +31,9 @@ _REMEMBERED = {
     ContactVariable.HEAT: (memory_map.HEAT, 1.0),
     ContactVariable.BROKEN: (memory_map.BROKEN, 1.0),
     ContactVariable.TURNED: (memory_map.TURNED, units.DEG),
+    ContactVariable.ALIGNED: (memory_map.ALIGNED, 1.0),
     ContactVariable.TWIST: (memory_map.TWIST, units.DEG),
+    ContactVariable.STRAINED: (memory_map.STRAINED, units.DEG),
 }
 
 
@@ -178,6 +180,7 @@ def _set_contact(row: Array, curve: ContactCurve) -> None:
     row[memory_map.L_CONTACT_STEP] = np.log1p(curve.last / curve.scale) / (memory_map.CONTACT_POINTS - 1)
     row[memory_map.L_RENEWAL] = curve.renewal_deg * units.DEG
     row[memory_map.L_FADING] = curve.fading_s
+    row[memory_map.L_FIRST] = curve.first_broken
     row[memory_map.L_CONTACT_0 :] = np.log(curve.factors)
 
 

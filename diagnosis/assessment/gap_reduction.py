@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.criteria.fitting import GAP_LIMIT
+
 Array = NDArray[np.float64]
 
 _BOOTSTRAPS = 400
@@ -24,6 +26,20 @@ class GapReduction:
     shrink: float
     shrink_low: float
     shrink_high: float
+
+    @property
+    def refutes(self) -> str:
+        """Why what was fitted explains nothing, as the end of a sentence; empty: it may.
+
+        Trials that its fit has not seen are predicted worse than by the nominal rig, far beyond chance,
+        and not at the noise: parameters that hold in all trials took up what differs among them.
+        """
+        if self.shrink_high >= 0.0 or self.after <= GAP_LIMIT:
+            return ""
+        return (
+            "on trials that its fit has not seen it leaves more than the nominal model: "
+            f"{self.after:.3g} instead of {self.before:.3g} σ"
+        )
 
 
 def gap_reduction(before: tuple[Array, ...], after: tuple[Array, ...]) -> GapReduction:

@@ -119,5 +119,8 @@ START_LEFT_SHARE = 0.5
 """Share of what the best explanation leaves beyond noise that lies within them, from which trials may
 begin wound up: what a law leaves is spread over a trial. Measured: 1.07 on a bent needle that had come
 to rest before each trial (6 % of the samples), 0.01 and 0.08 on two laws outside the library."""
+START_LEFT_BESIDE = 0.25
+"""The same where a sensor may drift besides, which is spread over a trial. A choice, between the share
+of laws outside the library and a bent needle beside a drift of equal size."""
 LEAST_DIFFERENCES = 20
 """Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""

@@ -43,7 +43,7 @@ def as_file(missing: Missing | None, name: str) -> str:
     """The content of the effect's file; empty if there is no law that a library could have."""
     if missing is None or missing.law is None or not can_be_saved(missing):
         return ""
-    rig = _fitted(missing)
+    rig, usual_deg = _fitted(missing), missing.best.fit.parameterization.base.presliding_deg
     elastic = any(law.place == "tissue" for law in (missing.law, *missing.beside))
     return effect_as_text(
         SavedEffect(
@@ -52,6 +52,7 @@ def as_file(missing: Missing | None, name: str) -> str:
             place=missing.law.place,
             stiffness_n_mm_per_rad_per_mm=rig.tissue_stiffness_n_mm_per_rad_per_mm if elastic else 0.0,
             time_constant_s=rig.tissue_time_constant_s if elastic else 0.0,
+            presliding_deg=rig.presliding_deg if rig.presliding_deg != usual_deg else None,
             law=rig.free,
         )
     )

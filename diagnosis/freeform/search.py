@@ -4,10 +4,10 @@ Every family is fitted through the simulation: for one iteration on the decimate
 needle, a few where it has few numbers; the most promising for a few more; the best to their end on the
 decimated log, the strength of their prior estimated, with a finer curve where that promises more, and,
 if none closes the gap, growing with another variable, then beside the effects of the library or the
-other laws that promise most there, and if that is not enough, beside a third; the best of these on the
-log itself, and checked on trials that the fit has not seen. Those whose predicted gap is far above the
-least do not go on. Where all leave far more than noise, there is no third law, and fewer go to the log
-itself, and not to their end.
+other laws that promise most there, and if that is not enough but near, beside a third; the best of
+these on the log itself, and checked on trials that the fit has not seen. Those whose predicted gap is
+far above the least do not go on. Where all leave far more than noise, fewer go to the log itself, and
+not to their end.
 """
 
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria.freeform import CLOSED_GAP, FAR_GAP, FINAL_NUMBERS
+from diagnosis.criteria.freeform import CLOSED_GAP, FAR_GAP, FINAL_NUMBERS, THIRD_LAW_GAP
 from diagnosis.fitting.decimation import gap_on_the_log
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
@@ -73,8 +73,7 @@ def free_form_fits(
     fitted = _richer(coarse, first, fitted, ranges, workers)
     if _open(fitted):
         fitted += beside_one(coarse, rough, base, fitted, first, effects, workers)
-    far = _far(fitted, problem, coarse)
-    if _open(fitted) and not far:
+    if _open(fitted) and not _far(fitted, problem, coarse, THIRD_LAW_GAP):
         fitted += beside_several(coarse, rough, base, fitted, first, workers)
     far = _far(fitted, problem, coarse)
     finals = each_fit(FINALS, _on_the_log, [(problem, f, far) for f in _finalists(fitted, far)], workers)
@@ -166,10 +165,12 @@ def _open(fits: Sequence[FreeFit]) -> bool:
     return bool(fits) and min(f.fit.gap for f in fits) > CLOSED_GAP
 
 
-def _far(fits: Sequence[FreeFit], problem: FitProblem, coarse: FitProblem) -> bool:
+def _far(
+    fits: Sequence[FreeFit], problem: FitProblem, coarse: FitProblem, most_gap: float = FAR_GAP
+) -> bool:
     """Whether all leave far more than noise."""
     least = min((f.fit.gap for f in fits), default=np.inf)
-    return gap_on_the_log(least, problem, coarse) > FAR_GAP
+    return gap_on_the_log(least, problem, coarse) > most_gap
 
 
 def _some_more(rough: FitProblem, first: FreeFit) -> FreeFit:

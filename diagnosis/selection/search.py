@@ -63,7 +63,7 @@ from diagnosis.selection.stages.sensors.sensor_drift import (
 )
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import Stage, run_stages
-from diagnosis.selection.stages.starts_left import starts_of_trials
+from diagnosis.selection.stages.starts_left import starts_and_more, starts_of_trials
 from diagnosis.selection.stages.triples import three_effects
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -108,6 +108,7 @@ STAGES: tuple[Stage, ...] = (
     drift_of_the_torque_sensor,
     jumps_and_more((flicker_noise, drift_of_the_torque_sensor)),
     drift_of_the_tip_sensor,
+    starts_and_more((drift_of_the_torque_sensor, drift_of_the_tip_sensor)),
     outliers_and_more(
         (
             weakly_coloured_noise,

@@ -12,13 +12,14 @@ and, where the tissue yields (Kelvin-Voigt, in series with all of the above),
 
     f = k phi + k tau dphi/dt,   dphi/dt = omega - s,   phi = phi* + g dphi/dt,
 
-with k times a curve over |phi| where it hardens or softens, and |phi| at most that at which it flows.
+with k times a curve over |phi| where it hardens or softens, or over the largest |phi| so far where it
+softens for good, and |phi| at most that at which it flows.
 
 A row may be shaped: its viscous torque follows a curve of the rate, exp of log factors that run
 straight over log |s|; its torque is (1 + a) times for positive and (1 - a) times for negative torque;
 all of it, or k alone, varies in time with a factor that is an input (k tau then with a power of that);
 and it is times a factor of what the site has been through, as it was at the start of the stage
-(sim.kernel.stage.curves).
+(sim.kernel.stage.curves); where fibres lie one way, of the direction of the torque, too.
 
 The two-dimensional presliding vector Z is returned to its disc radially: in
 steady sliding it gives level * omega / sqrt(omega^2 + (v/r)^2), and at v = 0 it
@@ -30,7 +31,7 @@ from typing import NamedTuple
 
 from sim.kernel import memory_map
 from sim.kernel.compiled import Array, embedded
-from sim.kernel.stage.curves import contact_factor, past_after, rate_factor
+from sim.kernel.stage.curves import contact_factor, past_after, rate_factor, remembered
 
 _INNER_ITERATIONS = 40
 _LEAST_RISE = 1e-6  # of the tissue's slope, where friction falls as fast as tissue gives way
@@ -147,8 +148,9 @@ def slip_law(
         factor = 1.0 + (asymmetry if torque > 0.0 else -asymmetry)
         factor *= stage.factor if row[memory_map.L_VARIES] == memory_map.TORQUE_VARIES else 1.0
         if 0.0 < row[memory_map.L_CONTACT] < memory_map.TWIST:
-            factor *= contact_factor(abs(past), row)[0]
-            past = past_after(past, s, g, row)
+            factor *= contact_factor(remembered(past, torque, row), row)[0]
+            slid = s - (dry - old.dry) / g if level > 0.0 and g > 0.0 else s
+            past = past_after(past, slid, g, row)
         torque, slope = torque * factor, slope * factor
     return torque, slope, Memory(dry, turn, axial, old.phi, past)
 
@@ -180,7 +182,7 @@ def site_law(
     s, low, high = slip, -math.inf, math.inf
     share, least = _slip_tolerance(row, extra)
     torque, slope, new = slip_law(s, row, extra, old, stage)
-    elastic, resistance = _elastic(omega - s, k, tau, row, old.phi, stage.g)
+    elastic, resistance = _elastic(omega - s, k, tau, row, old, stage.g)
     rise, change = slope + resistance, 0.0
     for _ in range(_INNER_ITERATIONS):
         miss = torque - elastic
@@ -195,11 +197,12 @@ def site_law(
         if not low < s < high:
             s = 0.5 * (low + high)
         torque, slope, new = slip_law(s, row, extra, old, stage)
-        elastic, resistance = _elastic(omega - s, k, tau, row, old.phi, stage.g)
+        elastic, resistance = _elastic(omega - s, k, tau, row, old, stage.g)
         rise, change = slope + resistance, 0.0
     s -= change
     phi = _held(old.phi + stage.g * (omega - s), row)
-    left = Memory(new.dry, new.turn, new.axial, phi, new.past)
+    past = max(new.past, abs(phi)) if row[memory_map.L_CONTACT] == memory_map.STRAINED else new.past
+    left = Memory(new.dry, new.turn, new.axial, phi, past)
     rise = max(rise, _LEAST_RISE * resistance)
     return torque - slope * change, slope * resistance / rise, s, left
 
@@ -220,9 +223,11 @@ def _slip_tolerance(row: Array, extra: float) -> tuple[float, float]:
 
 
 @embedded
-def _elastic(rate: float, k: float, tau: float, row: Array, phi: float, g: float) -> tuple[float, float]:
+def _elastic(
+    rate: float, k: float, tau: float, row: Array, old: Memory, g: float
+) -> tuple[float, float]:
     """Torque of the tissue where it yields at a rate, rad/s, and its slope, which stays positive."""
-    phi += g * rate
+    phi = old.phi + g * rate
     held = _held(phi, row)
     torque, resistance = held + tau * rate, tau + (g if held == phi else _LEAST * g)
     phi = held
@@ -231,6 +236,8 @@ def _elastic(rate: float, k: float, tau: float, row: Array, phi: float, g: float
         more = math.copysign(rise, phi) * g * torque
         resistance *= factor
         torque, resistance = factor * torque, max(resistance + more, _LEAST * resistance)
+    elif row[memory_map.L_CONTACT] == memory_map.STRAINED:
+        k *= contact_factor(old.past, row)[0]
     return k * torque, k * resistance
 
 

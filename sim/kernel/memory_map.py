@@ -129,8 +129,9 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT,  # what the curve of the following is over; 0: there is none
     L_CONTACT_SCALE,  # of the curve over that, rad, s or (rad/s)^2
     L_CONTACT_STEP,  # of log(1 + it / scale) between places of the curve
-    L_RENEWAL,  # slip that renews a contact, breaks its structure or turns it back, rad
+    L_RENEWAL,  # slip that renews a contact, breaks its structure, lays its fibres or turns it back, rad
     L_FADING,  # time in which its heat fades, or its structure heals, s
+    L_FIRST,  # share of its structure that is broken at first
     L_CONTACT_0,  # log factors at these places of the torque, or of the tissue's stiffness
     L_CONTACT_1,
     L_CONTACT_2,
@@ -141,17 +142,19 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT_7,
     L_CONTACT_8,
     COLUMNS,
-) = range(69)
+) = range(70)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
-SLIP_SO_FAR, AGE, HEAT, BROKEN, TURNED, TWIST = (
+SLIP_SO_FAR, AGE, HEAT, BROKEN, TURNED, ALIGNED, TWIST, STRAINED = (
     1.0,
     2.0,
     3.0,
     4.0,
     5.0,
     6.0,
-)  # what the curve is over; of the last PHI is the memory
+    7.0,
+    8.0,
+)  # what the curve is over; from TWIST on it is on the stiffness, and PHI is the memory of TWIST
 TORQUE_VARIES, STIFFNESS_VARIES = 1.0, 2.0  # with the torque varies the stiffness, too
 
 # --- numeric "needle_springs": of siblings alone, N m / rad (n values) -----------------

@@ -211,7 +211,8 @@ def test_replay_refuses_an_angle_that_wraps(replay_of):
 
 def test_diagnose_tells_warnings_of_the_log_before_anything_is_simulated(tmp_path, monkeypatch, capsys):
     log = write_log(tmp_path / "log")
-    change_trial(log, lambda t: t.assign(tip_angle_deg=np.radians(t["tip_angle_deg"])))
+    for name in ("turns.csv", "slides.csv"):
+        change_trial(log, lambda t: t.assign(tip_angle_deg=np.radians(t["tip_angle_deg"])), name)
 
     def simulated(*_, **__):
         raise RuntimeError("simulated")
@@ -220,4 +221,4 @@ def test_diagnose_tells_warnings_of_the_log_before_anything_is_simulated(tmp_pat
     with pytest.raises(RuntimeError, match="simulated"):
         main(["diagnose", str(log)])
     said = " ".join(capsys.readouterr().err.split())
-    assert "warning: turns.csv: tip_angle_deg scatters by" in said
+    assert "warning: turns.csv, slides.csv: tip_angle_deg scatters by" in said

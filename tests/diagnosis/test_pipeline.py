@@ -197,6 +197,25 @@ def test_an_effect_that_may_as_well_be_absent_is_not_part_of_the_answer(monkeypa
     assert "coulomb_friction: the interval reaches its absence" in found.record[-1].reason
 
 
+def test_an_explanation_that_predicts_unseen_trials_worse_is_none(monkeypatch):
+    """Its gap on these is made to grow; the nominal rig, which explains nothing, is not refuted."""
+    inner, log = pipeline.assess, log_of(DRY, speed=-1.0, seed=1)
+
+    def assess(*arguments):
+        found = inner(*arguments)
+        worse = replace(found.gap, before=1.01, after=1.2, shrink_high=-0.1)
+        return replace(found, gap=worse)
+
+    monkeypatch.setattr(pipeline, "assess", assess)
+    monkeypatch.setattr(pipeline, "with_what_is_missing", lambda _, told, *__: told)
+    found = diagnose(log, workers=1)
+    assert (found.verdict.kind, found.verdict.effects) == (VerdictKind.UNKNOWN, ())
+    assert "1.2 instead of 1.01 σ" in found.verdict.other_form
+    assert found.record[-1].decision is Decision.DROPPED
+    nominal = diagnose(log_of(NOMINAL, seconds=2.0), workers=1)
+    assert nominal.verdict.kind is VerdictKind.NONE
+
+
 def test_progress_is_told_by_stage():
     told = []
     log = log_of(NOMINAL, seconds=2.0)

@@ -6,6 +6,7 @@
     place: interface
     stiffness_n_mm_per_rad_per_mm: 0        # of Kelvin-Voigt tissue, where the law is of that
     time_constant_s: 0
+    presliding_deg: null                    # by which dry friction gives, where the law is of that
     law: {curves: [{acts_on: tissue, variable: depth, places: [...], values: [...]}], ...}
 
 The fields of `law` are those of diagnosis.replay.free_law and free_parts. Its one
@@ -46,6 +47,7 @@ class SavedEffect(Record):
     place: Place
     stiffness_n_mm_per_rad_per_mm: float = Field(default=0.0, ge=0)
     time_constant_s: float = Field(default=0.0, ge=0)
+    presliding_deg: float | None = Field(default=None, gt=0)
     law: FreeLaw
 
     @model_validator(mode="after")
@@ -101,6 +103,8 @@ def effect_as_text(saved: SavedEffect) -> str:
 def _apply(saved: SavedEffect, rig: RigParameters, strength: float) -> RigParameters:
     law = saved.law.times(strength)
     changed = replace(rig, free=law if rig.free is None else rig.free.beside(law))
+    if saved.presliding_deg is not None:
+        changed = replace(changed, presliding_deg=saved.presliding_deg)
     if saved.stiffness_n_mm_per_rad_per_mm == 0.0:
         return changed
     return replace(

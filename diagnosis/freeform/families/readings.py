@@ -8,9 +8,10 @@
                    or true value times a curve of time or depth
 
 An angle of the drive that errs with its angle, or once a turn, is as likely that of an encoder, whose
-disc is off its centre; no log tells which. Several waves a turn are those of gears and joints. An offset
-of the tip that depends on the torque is a twist in addition to that of the nominal stiffness: it is more
-likely due to the needle than to the sensor.
+disc is off its centre; no log tells which. One that errs with the depth is an offset of the tip's
+reading where the depth stays through a trial. Several waves a turn are those of gears and joints. An
+offset of the tip that depends on the torque is a twist in addition to that of the nominal stiffness: it
+is more likely due to the needle than to the sensor.
 """
 
 from collections.abc import Mapping
@@ -130,7 +131,8 @@ ADDED = (
     *_added(*_SHAFT, DRIVE, _V.TIME, _V.TRIAL_SHARE, _V.DIRECTION),
     *_added(*_SHAFT, _OF_ENCODER, _V.BASE_ANGLE),
     *_added(*_SHAFT, _OF_ENCODER, _V.BASE_ANGLE, period_deg=TURN_DEG),
-    *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE, _V.DEPTH, _V.AXIAL_SPEED, _V.SLID),
+    *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE, _V.AXIAL_SPEED, _V.SLID),
+    *_added(*_SHAFT, {Place.DRIVE: 0.5, Place.SENSOR: 0.5}, _V.DEPTH),
     *_added(*_SHAFT, {Place.DRIVE: 0.6, Place.NEEDLE: 0.4}, _V.PAST),
     *_added(*_SLIP, DRIVE, _V.TORQUE),
     *_added(*_LOST, {Place.DRIVE: 0.6, Place.SENSOR: 0.4}, _V.RATE),

@@ -1,7 +1,7 @@
 """Free laws of the tissue: elastic (Kelvin-Voigt), with a stiffness that is a curve of a variable.
 
 Its viscosity goes along with the stiffness by a power that is fitted. The stiffness may also be a curve
-of the twist of the tissue: it hardens or softens.
+of the twist of the tissue: it hardens or softens; or of its largest twist so far: it softens for good.
 """
 
 from collections.abc import Callable, Sequence
@@ -27,13 +27,20 @@ Array = NDArray[np.float64]
 
 OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.DEPTH, Variable.HISTORY)
 _FOLLOWS = Parameter(name="follows", unit="-", low=0.0, high=1.0, start=(0.5,) * 4, neutral=None)
+_OF_TWIST = {
+    ContactVariable.TWIST: ("with its twist", "torque"),
+    ContactVariable.STRAINED: ("with its largest twist so far", "history"),
+}
 _EVEN_DEG, _MOST_DEG = 3.0, 45.0  # twist below which places are even, and beyond which none is
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that the tissue may lack."""
     over = (_elastic_over(v, ranges) for v in OVER if v in ranges.ends)
-    hardening = (_elastic_over_twist(ranges),) if Variable.BASE_ANGLE in ranges.ends else ()
+    twisted = (
+        (ContactVariable.TWIST, ContactVariable.STRAINED) if Variable.BASE_ANGLE in ranges.ends else ()
+    )
+    hardening = (_elastic_over_twist(over, ranges) for over in twisted)
     return (*over, _elastic_along_depth(ranges), *hardening)
 
 
@@ -51,13 +58,14 @@ def _elastic_along_depth(ranges: LogRanges) -> Family:
     return _elastic(ranges, curve, law, over="position", words="along the inserted shaft", unit=unit)
 
 
-def _elastic_over_twist(ranges: LogRanges) -> Family:
+def _elastic_over_twist(twist: ContactVariable, ranges: LogRanges) -> Family:
     """The tissue twists by at most half of what the base turns to and fro."""
     low_deg, high_deg = ranges.ends[Variable.BASE_ANGLE]
     most_deg = min(0.5 * (high_deg - low_deg), _MOST_DEG)
     curve = replace(smooth_curve(0.0, 1.0, CONTACT_POINTS), places=contact_places(_EVEN_DEG, most_deg))
-    law = partial(_law_over_twist, curve)
-    return _elastic(ranges, curve, law, over="twist", words="with its twist", unit="deg", says="torque")
+    law = partial(_law_over_twist, twist, curve)
+    words, says = _OF_TWIST[twist]
+    return _elastic(ranges, curve, law, over=twist, words=words, unit="deg", says=says)
 
 
 def _elastic(
@@ -101,9 +109,9 @@ def _law_along_depth(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
     return FreeLaw(along_depth=AlongDepth(stiffness=curve.factors(c)))
 
 
-def _law_over_twist(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
+def _law_over_twist(twist: ContactVariable, curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
     contact = ContactCurve(
-        over=ContactVariable.TWIST,
+        over=twist,
         scale=_EVEN_DEG,
         last=float(curve.places[-1]),
         factors=curve.factors(c),

@@ -95,12 +95,29 @@ def distinct(ranked: Sequence[FreeFit]) -> list[FreeFit]:
 
 
 def unlike(ranked: Sequence[FreeFit]) -> list[FreeFit]:
-    """Those that leave something else than each before them; variables may be the same in a log."""
+    """Those that leave something else than each before them; variables may be the same in a log.
+
+    Of laws that leave the same, the one whose place is surest stands for all, in the places of all:
+    an offset of the drive in each trial is one of the tip's reading.
+    """
     kept: list[FreeFit] = []
     for f in ranked:
-        if not any(_leave_the_same(f.fit, k.fit) for k in kept):
+        same = next((i for i, k in enumerate(kept) if _leave_the_same(f.fit, k.fit)), None)
+        if same is None:
             kept.append(f)
+        else:
+            kept[same] = _in_the_places_of_both(kept[same], f)
     return kept
+
+
+def _in_the_places_of_both(one: FreeFit, other: FreeFit) -> FreeFit:
+    """The one whose place is surest, the first if both are, with the mean of both probabilities."""
+    each = [f.family.places for f in (one, other)]
+    if each[0] == each[1]:
+        return one
+    surest = max((one, other), key=lambda f: max(f.family.places.values()))
+    places = {p: float(np.mean([own.get(p, 0.0) for own in each])) for p in {**each[0], **each[1]}}
+    return replace(surest, family=replace(surest.family, places=places))
 
 
 def _leave_the_same(one: Fit, other: Fit) -> bool:

@@ -24,9 +24,16 @@ from diagnosis.freeform.prior import well_determined
 
 
 def likelier_first(fits: Sequence[FreeFit]) -> list[FreeFit]:
-    """Fits to the log itself before others, and of these the likelier ones first."""
+    """Fits to the log itself before others, and of these the likelier ones first.
+
+    A law that may as well be elsewhere is as likely as the largest share of its places.
+    """
     least = least_gap(fits)
-    return sorted(fits, key=lambda f: (not f.final, -_log_weight(f, least)))
+
+    def weight(f: FreeFit) -> float:
+        return _log_weight(f, least) + math.log(max(f.family.places.values()))
+
+    return sorted(fits, key=lambda f: (not f.final, -weight(f)))
 
 
 def least_gap(fits: Sequence[FreeFit]) -> float:

@@ -71,6 +71,8 @@ def _unknown(found: Diagnosis) -> str:
     best, near = found.verdict.best, found.assessment.nearest
     before, sigma = in_sigma(found.assessment.gap.before), _what_sigma_is(found)
     left, named = f"{in_sigma(near.gap_after)} {sigma}", titles(near.effects) or _NOTHING
+    if found.verdict.other_form and not near.effects:
+        return f"Unknown: residual {before}. What fits all trials is none: {found.verdict.other_form}"
     if found.verdict.other_form:
         would = f"{capital(named)} would leave {left}"
         return f"Unknown: residual {before}. {would}, but {found.verdict.other_form}"

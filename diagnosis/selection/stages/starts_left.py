@@ -6,15 +6,16 @@ is wound up by its own curvature. Beside an explanation it shows: what that leav
 the first moments of trials; or, with play in the chuck, until the base has turned by that, since the
 needle may rest anywhere within it. Then all trials have a past, which is fitted, if the log is explained
 so: first on the decimated log, and on the log itself what comes near the noise there, also with an
-imperfection of a sensor, which starts that are left had hidden.
+imperfection of a sensor, or a drift of one, which starts that are left had hidden.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria.prepare import START_LEFT_SHARE, START_LEFT_TIMES
+from diagnosis.criteria.prepare import START_LEFT_BESIDE, START_LEFT_SHARE, START_LEFT_TIMES
 from diagnosis.criteria.selection import EXCHANGE_GAP
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
@@ -28,7 +29,7 @@ from diagnosis.replay.replay import replay
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.stages.sensors.imperfections import imperfections_beside_the_best
-from diagnosis.selection.stages.stage import near_fitted_again
+from diagnosis.selection.stages.stage import Stage, near_fitted_again
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -56,6 +57,27 @@ def starts_of_trials(state: SearchState, workers: Workers) -> SearchState:
             )
         )
     return again.noting(noted(STAGE, Decision.KEPT, "trials that begin wound up explain the log"))
+
+
+def starts_and_more(others: Sequence[Stage]) -> Stage:
+    """A stage: what else a recording may lack is asked once more of trials that may begin wound up.
+
+    Args:
+      others: stages that allow for it; the first that explains the log is kept.
+    """
+
+    def starts_and_another_imperfection(state: SearchState, workers: Workers) -> SearchState:
+        state, explained = state.rechecked()
+        if explained or share_at_the_start(state) < START_LEFT_BESIDE:
+            return state
+        begun = near_fitted_again(STAGE, state, _with_pasts(state), workers, EXCHANGE_GAP)
+        for other in others:
+            again, explained = other(begun, workers).rechecked()
+            if explained:
+                return again.noting(noted(STAGE, Decision.KEPT, "with such starts it explains the log"))
+        return state
+
+    return starts_and_another_imperfection
 
 
 def share_at_the_start(state: SearchState) -> float:

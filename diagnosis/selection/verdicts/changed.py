@@ -45,10 +45,10 @@ def with_open_effects(verdict: Verdict, effects: Sequence[str]) -> Verdict:
 
 
 def refuted(verdict: Verdict, form: str) -> Verdict:
-    """The verdict where a law that no library holds does better than the explanation.
+    """The verdict where an explanation is none: a law that no library holds does better, say.
 
     Args:
-      form: that law, and how it does better, in plain words.
+      form: why, in plain words: that law, and how it does better.
     """
     return Verdict(
         kind=VerdictKind.UNKNOWN,

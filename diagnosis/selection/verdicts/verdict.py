@@ -35,7 +35,7 @@ class Verdict:
       rivals: candidates that explain the log as well as the best.
       ranking: explanations with probabilities that add up to 1, most probable first: every effect of
         the library alone, sets of several that were fitted, `NOTHING` and `UNEXPLAINED`.
-      other_form: free-form law that refutes the best, and how, in plain words; empty: none is known.
+      other_form: what refutes the best, in plain words, a free-form law say; empty: nothing does.
       as_near: sets that come about as near to an unknown log as the best, nearest first.
     """
 

@@ -217,8 +217,12 @@ def hardening_power(w: Workspace, r: int, row: Array, frame: Frame) -> float:
     for site in range(2 * w.loads[r].shape[0] if _hardens(row) else 0):
         e, k = site // 2, site % 2
         phi, was = w.end[r, e, k, memory_map.PHI], w.start[r, e, k, memory_map.PHI]
-        factor = contact_factor(abs(phi), row)[0]
-        power += _stiffness_at(w, r, row, frame, e, k) * (factor - 1.0) * phi * (phi - was) / frame.g
+        factor, lost = contact_factor(abs(phi), row)[0], 0.0
+        if row[memory_map.L_CONTACT] == memory_map.STRAINED:
+            factor = contact_factor(w.end[r, e, k, memory_map.PAST], row)[0]
+            lost = contact_factor(w.start[r, e, k, memory_map.PAST], row)[0] - factor
+        taken = (factor - 1.0) * phi * (phi - was) - 0.5 * lost * phi * phi
+        power += _stiffness_at(w, r, row, frame, e, k) * taken / frame.g
     return power
 
 
@@ -229,14 +233,17 @@ def hardening_energy(w: Workspace, r: int, row: Array, frame: Frame) -> float:
     for site in range(2 * w.loads[r].shape[0] if _hardens(row) else 0):
         e, k = site // 2, site % 2
         phi = abs(w.end[r, e, k, memory_map.PHI])
-        factor = mean_factor(phi, row)
+        if row[memory_map.L_CONTACT] == memory_map.STRAINED:
+            factor = contact_factor(w.end[r, e, k, memory_map.PAST], row)[0]
+        else:
+            factor = mean_factor(phi, row)
         energy += 0.5 * _stiffness_at(w, r, row, frame, e, k) * phi * phi * (factor - 1.0)
     return energy
 
 
 @inlined
 def _hardens(row: Array) -> bool:
-    return row[memory_map.L_CONTACT] == memory_map.TWIST and row[memory_map.L_POINT] == 0.0
+    return row[memory_map.L_CONTACT] >= memory_map.TWIST and row[memory_map.L_POINT] == 0.0
 
 
 @inlined

@@ -35,7 +35,8 @@ def next_stage(
     start, end = w.start, w.end
     for r in range(law.shape[0]):
         if not is_linear(law[r]):
-            signed = law[r, memory_map.L_CONTACT] == memory_map.TURNED
+            over = law[r, memory_map.L_CONTACT]
+            signed = over in (memory_map.BROKEN, memory_map.TURNED, memory_map.ALIGNED)
             _carry_sites(before[r], start[r], end[r], frame.yield_angle, signed, kept, carried)
 
 

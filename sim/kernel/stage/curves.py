@@ -6,10 +6,11 @@ remembers, beside its presliding, one of
     the slip so far    d past / dt = |s|
     its age            d past / dt = 1 - past |s| / renewal
     its heat           d past / dt = (s^2 - past) / fading
-    what is broken     d past / dt = (1 - past) |s| / renewal - past / fading
+    what is broken     d past / dt = (1 - broken) |s| / renewal - broken / fading, broken = first + past
     its turn one way   d past / dt = s - past |s| / renewal (the last term while s is against past)
+    how fibres lie     d past / dt = (sign(s) - past) |s| / renewal
 
-or its tissue is as stiff as a curve over its twist says.
+or its tissue is as stiff as a curve over its twist says, or over its largest twist so far.
 """
 
 import math
@@ -83,9 +84,20 @@ def _grown(b: float, low: float, high: float, power: float) -> float:
 
 
 @embedded
+def remembered(past: float, torque: float, row: Array) -> float:
+    """What the curve is over: the past without its sign, the broken share, or that of fibres along the
+    slip."""
+    if row[memory_map.L_CONTACT] == memory_map.ALIGNED:
+        return 0.5 * (1.0 + (past if torque > 0.0 else -past))
+    if row[memory_map.L_CONTACT] == memory_map.BROKEN:
+        return max(row[memory_map.L_FIRST] + past, 0.0)
+    return abs(past)
+
+
+@embedded
 def past_after(past: float, s: float, g: float, row: Array) -> float:
-    """Slip so far, or one way, rad, age, s, heat, or broken share after a stage of length g, by backward
-    Euler."""
+    """Slip so far, or one way, rad, age, s, heat, broken share, or how fibres lie, after a stage of
+    length g, by backward Euler."""
     if row[memory_map.L_CONTACT] == memory_map.SLIP_SO_FAR:
         return past + g * abs(s)
     if row[memory_map.L_CONTACT] == memory_map.HEAT:
@@ -93,7 +105,10 @@ def past_after(past: float, s: float, g: float, row: Array) -> float:
         return (past + share * s * s) / (1.0 + share)
     slips = g * abs(s) / row[memory_map.L_RENEWAL]
     if row[memory_map.L_CONTACT] == memory_map.BROKEN:
-        return (past + slips) / (1.0 + slips + g / row[memory_map.L_FADING])
+        first = row[memory_map.L_FIRST]
+        return (first + past + slips) / (1.0 + slips + g / row[memory_map.L_FADING]) - first
     if row[memory_map.L_CONTACT] == memory_map.TURNED:
         return (past / (1.0 + slips) if past * s < 0.0 else past) + g * s
+    if row[memory_map.L_CONTACT] == memory_map.ALIGNED:
+        return (past + math.copysign(slips, s)) / (1.0 + slips)
     return (past + g) / (1.0 + slips)

@@ -35,6 +35,16 @@ def test_what_changes_nothing_reduces_nothing():
     assert (found.shrink, found.shrink_low, found.shrink_high) == (0.0, 0.0, 0.0)
 
 
+def test_what_predicts_unseen_trials_worse_than_the_nominal_rig_is_refuted():
+    found = gap_reduction(noise(1.0, 1), noise(1.2, 2))
+    assert "1.2 instead of 1 σ" in found.refutes.replace(f"{found.before:.3g}", "1")
+
+
+@pytest.mark.parametrize(("before", "after"), [(1.0, 1.005), (4.0, 1.2), (1.001, 1.02)])
+def test_what_is_at_the_noise_or_better_than_the_nominal_rig_is_not(before, after):
+    assert not gap_reduction(noise(before, 1), noise(after, 2)).refutes
+
+
 def test_trials_that_are_shorter_than_a_block_count():
     """A slow sensor leaves a trial of half a minute some dozens of readings."""
     found = gap_reduction((np.full(60, 4.0), np.full(90, 4.0)), (np.full(60, 1.0), np.full(90, 1.0)))

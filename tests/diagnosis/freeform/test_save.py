@@ -39,6 +39,15 @@ def test_of_elastic_tissue_stiffness_and_time_constant_are_saved_with_it():
     assert content["time_constant_s"] == 0.7
 
 
+def test_by_how_much_dry_friction_gives_is_saved_where_the_law_is_of_that(tmp_path):
+    path = tmp_path / "healing_bonds.yaml"
+    path.write_text(as_file(missing_with(presliding_deg=2.5), path.stem))
+    assert read_effect(path).apply(NOMINAL, 1.0).presliding_deg == 2.5
+    path.write_text(as_file(missing_with(), path.stem))
+    other = replace(NOMINAL, presliding_deg=0.3)
+    assert read_effect(path).apply(other, 1.0).presliding_deg == 0.3
+
+
 def test_laws_that_were_fitted_together_are_saved_as_one_effect():
     """The rig of the fit has both; so has the file, with the numbers of elastic tissue of either."""
     one, other = missing_with(STICKY), missing_with(SOFTENING, place=Place.TISSUE)
@@ -64,7 +73,7 @@ def test_no_part_of_a_law_is_lost_where_it_is_saved(family):
     moved = [p.from_fit(p.to_fit(p.start[0]) + 0.1) for p in parameters]
     values = [min(max(v, p.low), p.high) for v, p in zip(moved, parameters, strict=True)]
     rig = family.effect.apply(NOMINAL, *values)
-    kept = {"free"} | (ELASTIC if family.place is Place.TISSUE else set())
+    kept = {"free", "presliding_deg"} | (ELASTIC if family.place is Place.TISSUE else set())
     changed = {f.name for f in fields(rig) if getattr(rig, f.name) != getattr(NOMINAL, f.name)}
     assert "free" in changed
     assert changed <= kept

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from free_forms import LEVEL, family_of, linear_fit, one_trial
 
-from diagnosis.criteria.freeform import CLOSED_GAP, FAR_GAP
+from diagnosis.criteria.freeform import CLOSED_GAP, FAR_GAP, THIRD_LAW_GAP
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform import search
 from diagnosis.freeform.fits import combined_laws
@@ -157,7 +157,7 @@ def test_where_no_law_closes_the_gap_two_are_fitted_and_only_where_these_do_not_
     found = run(alone, {**alone, "a + b": 1.05, "a + b + c": 1.0})
     assert found[0].names == ("a", "b")
     assert ("a", ("b", "c"), False) not in seen
-    found = run(alone, {**alone, "a + b": 1.5, "a + b + c": 1.0})
+    found = run(alone, {**alone, "a + b": THIRD_LAW_GAP - 0.1, "a + b + c": 1.0})
     assert found[0].names == ("a", "b", "c")
     run(alone, {**alone, "a": 1.0, "a + b": 0.9})
     assert seen[-1][1] == ()  # one closes the gap
@@ -165,7 +165,7 @@ def test_where_no_law_closes_the_gap_two_are_fitted_and_only_where_these_do_not_
 
 def test_no_third_law_is_tried_where_two_leave_far_more_than_noise(fitted):
     run, seen = fitted
-    alone, far = {"a": 3.0, "b": 3.1, "c": 3.2}, FAR_GAP + 0.1
+    alone, far = {"a": 3.0, "b": 3.1, "c": 3.2}, THIRD_LAW_GAP + 0.1
     found = run(alone, {**alone, "a + b": far, "a + b + c": 1.0})
     assert found[0].names == ("a", "b")
     assert ("a", ("b", "c"), False) not in seen

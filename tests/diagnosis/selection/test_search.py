@@ -64,6 +64,7 @@ def test_the_stages_are_these_in_this_order():
         "drift_of_the_torque_sensor",
         "jumps_of_readings",
         "drift_of_the_tip_sensor",
+        "starts_and_another_imperfection",
         "outliers_and_another_imperfection",
         "drift_or_offset",
         "scatter_of_the_best",

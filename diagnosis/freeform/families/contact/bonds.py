@@ -1,5 +1,5 @@
 """Bonds that twist, and break where they slip: tissue that tears along the shaft, a membrane where it
-enters, a barb at the tip that comes loose.
+enters, a barb at the tip that comes loose. Tissue that sticks to the shaft makes them anew at rest.
 """
 
 import math
@@ -43,11 +43,30 @@ _BONDS = (
 )
 
 
+_HEALING = (
+    Parameter(
+        name="twist", unit="deg", low=0.1, high=45.0, start=(0.3, 3.0), logarithmic=True, neutral=None
+    ),
+    Parameter(
+        name="slip", unit="deg", low=0.5, high=720.0, start=(10.0,) * 2, logarithmic=True, neutral=None
+    ),
+    Parameter(
+        name="time", unit="s", low=0.2, high=100.0, start=(5.0,) * 2, logarithmic=True, neutral=None
+    ),
+    Parameter(name="left", unit="-", low=0.001, high=1.0, start=(0.05,) * 2, neutral=None),
+    Parameter(name="first", unit="-", low=0.0, high=1.0, start=(0.3,) * 2, neutral=None),
+)
+
+
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Bonds that break, along the shaft and in one place, where the base turns."""
     if Variable.HISTORY not in ranges.ends:
         return ()
-    return (_along(ranges), *(_in_one_place(spot, ranges) for spot in (ENTRY, AT_THE_TIP)))
+    return (
+        _along(ranges),
+        _healing(ranges),
+        *(_in_one_place(spot, ranges) for spot in (ENTRY, AT_THE_TIP)),
+    )
 
 
 def _along(ranges: LogRanges) -> Family:
@@ -69,6 +88,23 @@ def _along(ranges: LogRanges) -> Family:
         curve=_broken,
         x_unit="deg of slip",
         unit="N mm / mm",
+    )
+
+
+def _healing(ranges: LogRanges) -> Family:
+    """Bonds whose level fades as slip breaks them, and that grow again in time, as stiff as strong."""
+    level, along = ranges.dry_level, _along(ranges)
+    return replace(
+        along,
+        effect=replace(
+            along.effect,
+            name="healing bonds over slip",
+            title="bonds between shaft and tissue that break where they slip, and grow again",
+            parameters=(replace(level, start=level.start[-1:] * 2), *_HEALING),
+            apply=_apply_healing,
+        ),
+        curve=_broken_share,
+        x_unit="of the bonds broken",
     )
 
 
@@ -111,6 +147,31 @@ def _fading(slip_deg: float, left: float) -> ContactCurve:
 def _broken(level: float, _: float, slip_deg: float, left: float) -> Points:
     curve = _fading(slip_deg, left)
     return curve.places, level * np.array(curve.factors)
+
+
+def _bonds_left(slip_deg: float, time_s: float, left: float, first: float) -> ContactCurve:
+    """Straight from 1, where none is broken, to what is left where all are."""
+    curve = ContactCurve(
+        over=ContactVariable.BROKEN,
+        scale=1.0,
+        last=1.0,
+        factors=(1.0,) * CONTACT_POINTS,
+        renewal_deg=slip_deg,
+        fading_s=time_s,
+        first_broken=first,
+    )
+    straight: ContactCurve = curve.but(factors=tuple(1.0 - (1.0 - left) * curve.places))
+    return straight
+
+
+def _broken_share(level: float, _: float, *bonds: float) -> Points:
+    curve = _bonds_left(*bonds)
+    return curve.places, level * np.array(curve.factors)
+
+
+def _apply_healing(rig: RigParameters, level: float, twist_deg: float, *bonds: float) -> RigParameters:
+    law = Interface(kinetic_n_mm_per_mm=level, contact=_bonds_left(*bonds))
+    return replace(rig, presliding_deg=twist_deg, free=FreeLaw(throughout=(law,)))
 
 
 def _apply_bonds(

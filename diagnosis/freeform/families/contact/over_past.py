@@ -5,6 +5,7 @@
 - damping, or dry friction, times a curve of the share of its structure that slip has broken, which heals
   in time: thixotropic tissue, a gel
 - damping, or dry friction, times a curve of the slip since it turned back: tissue that bites
+- damping, or dry friction, times a curve of the share of fibres that lie along the slip, which lays them
 - dry friction times a curve of the age of the contact, which slip renews; it starts as one that grows
 """
 
@@ -36,6 +37,7 @@ _UNITS = {
     ContactVariable.HEAT: "(rad/s)^2 of late",
     ContactVariable.BROKEN: "of its structure broken",
     ContactVariable.TURNED: "deg since it turned back",
+    ContactVariable.ALIGNED: "of the fibres along the slip",
 }
 _WORDS = {
     ContactVariable.SLIP: "the slip so far",
@@ -43,6 +45,7 @@ _WORDS = {
     ContactVariable.HEAT: "how fast it has slipped of late",
     ContactVariable.BROKEN: "the share of its structure that slip has broken",
     ContactVariable.TURNED: "the slip since it turned back",
+    ContactVariable.ALIGNED: "the share of fibres that lie along the slip",
 }
 _FADING = Parameter(
     name="fading", unit="s", low=0.1, high=60.0, start=(1.0, 5.0), logarithmic=True, neutral=None
@@ -60,6 +63,8 @@ _BREAKING = Parameter(
     neutral=None,
 )
 _HEALING = replace(_FADING, name="healing", start=(1.0, 10.0) * 2)
+_LAYING = replace(_BREAKING, name="laying")
+_SMOOTH = (-1.0, 1.0) * 2  # slope of a curve over the fibres along the slip to start with
 _BITES = (-2.0, 2.0)  # slope of a curve over the slip since it turned back to start with
 _TURNS_BACK_DEG = 0.3  # slip after which it counts as turned back
 _WEAKENS = (-1.0,) * 4  # slope of a curve over what is broken to start with
@@ -71,6 +76,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if Variable.HISTORY in ranges.ends:
         found += [_damping_over(own, ranges) for own in (_slip(ranges), _heat(ranges), _broken_share())]
         found += [_friction_over(own, ranges) for own in (_slip(ranges), _broken_share())]
+        found += [over(_aligned_share(), ranges) for over in (_damping_over, _friction_over)]
     if {Variable.HISTORY, Variable.BASE_ANGLE} <= ranges.ends.keys():
         found += [over(_turned(ranges), ranges) for over in (_damping_over, _friction_over)]
     if Variable.TIME in ranges.ends:
@@ -108,6 +114,11 @@ def _broken_share() -> ContactCurve:
     return _neutral(ContactVariable.BROKEN, 1.0, 1.0)
 
 
+def _aligned_share() -> ContactCurve:
+    """A neutral curve over the share of fibres that lie along the slip; close places near 0."""
+    return _neutral(ContactVariable.ALIGNED, 1.0, 1.0)
+
+
 def _neutral(over: ContactVariable, scale: float, last: float) -> ContactCurve:
     return ContactCurve(over=over, scale=scale, last=last, factors=(1.0,) * CONTACT_POINTS)
 
@@ -119,6 +130,8 @@ def _damping_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
         shape = _starting((_FADING,), shape, (_CHANGES, -_CHANGES))
     elif neutral.over is ContactVariable.BROKEN:
         shape = _starting((_BREAKING, _HEALING), shape, _WEAKENS)
+    elif neutral.over is ContactVariable.ALIGNED:
+        shape = _starting((_LAYING,), shape, _SMOOTH)
     elif neutral.over is ContactVariable.TURNED:
         shape = _starting((), shape, _BITES)
     return Family(
@@ -166,6 +179,9 @@ def _friction_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
     elif neutral.over is ContactVariable.BROKEN:
         shape = _starting((_BREAKING, _HEALING), shape, _WEAKENS)
         level = replace(level, start=level.start[-1:])
+    elif neutral.over is ContactVariable.ALIGNED:
+        shape = _starting((_LAYING,), shape, _SMOOTH)
+        level = replace(level, start=level.start[-1:])
     elif neutral.over is ContactVariable.TURNED:
         shape = _starting((), shape, _BITES)
         level = replace(level, start=level.start[-1:])
@@ -203,7 +219,7 @@ def _apply_friction(
 
 def _shaped(neutral: ContactCurve, curve: SmoothCurve, shape: Sequence[float]) -> ContactCurve:
     """The curve with its coordinates; what renews or fades what it is over comes first."""
-    if neutral.over is ContactVariable.AGE:
+    if neutral.over in (ContactVariable.AGE, ContactVariable.ALIGNED):
         neutral, shape = neutral.but(renewal_deg=shape[0]), shape[1:]
     elif neutral.over is ContactVariable.HEAT:
         neutral, shape = neutral.but(fading_s=shape[0]), shape[1:]

@@ -25,6 +25,7 @@ from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.residuals.largest_step import largest_step
 from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, RecordEntry, noted
 from diagnosis.selection.scoring.drift_evidence import in_noise, score_beside_drift, wide_drifts
 from diagnosis.selection.stages.best import best_without_each_effect
@@ -124,7 +125,8 @@ def _searched_again(state: SearchState, sensor: str, noise: Noise, workers: Work
     drifting = state.renoised(noise).noting(noted(stage, Decision.KEPT, reason))
     start = replace(drifting, candidates=(), singles=(), pairs=(), triples=())
     noise = start.coarse.noise
-    sets = ([in_noise(c, state.coarse, noise) for c in own] for own in (state.singles, state.pairs))
+    known = (state.singles, state.pairs) if state.singles else _on_the_decimated_log(state, workers)
+    sets = ([in_noise(c, state.coarse, noise) for c in own] for own in known)
     contenders = [c for own in sets for c in leading_sets(own)]
     least = min((c.fit.cost for c in contenders), default=float("inf"))
     near = [c for c in contenders if c.fit.cost <= NEAR_FLOOR * least]
@@ -136,6 +138,14 @@ def _searched_again(state: SearchState, sensor: str, noise: Noise, workers: Work
     pairs, record = screen_all(stage, beside, workers)
     found = fitted_again(stage, start.noting(*record), calls, workers, pairs)
     return best_without_each_effect(found, workers)
+
+
+def _on_the_decimated_log(state: SearchState, workers: Workers) -> tuple[list[Candidate], ...]:
+    """The leading explanations there, of a log whose rows have changed: single effects, and pairs."""
+    coarse, leading = state.coarse, [c for c in leading_on_the_log(state) if c.names]
+    calls = [(coarse, c.names, coarse.parameterization(c.names).joined(c.fit.parts)) for c in leading]
+    found, _ = fit_all(_STAGES[TIP], calls, workers)
+    return tuple([c for c in found if len(c.names) == size] for size in (1, 2))
 
 
 def _dropped(sensor: str, reason: str) -> RecordEntry:

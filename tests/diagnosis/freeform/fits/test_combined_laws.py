@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from free_forms import family_of, linear_fit
 
+from diagnosis.effects.effect import Place
 from diagnosis.freeform.fits import combined_laws
 from diagnosis.freeform.fits.combined_laws import distinct, unlike
 from diagnosis.freeform.fits.free_fit import FreeFit
@@ -27,6 +28,18 @@ def test_of_laws_whose_variables_are_the_same_in_a_log_the_first_stays():
     slid, pushed = (fit_of(name, [1.0, 2.0]) for name in ("slid lately", "pushed lately"))
     turned, else_ = fit_of("turned", [2.0, 1.0]), fit_of("else", [1.0, 2.1])
     assert unlike([slid, pushed, turned, else_]) == [slid, turned, else_]
+
+
+def test_of_laws_that_leave_the_same_the_one_whose_place_is_surest_stands_for_both():
+    """An offset of the drive in each trial, say, and one of what the tip sensor reads."""
+    drive, sensor = (fit_of(name, [1.0, 2.0]) for name in ("drive", "reading"))
+    either = {Place.DRIVE: 0.5, Place.SENSOR: 0.5}
+    drive = replace(drive, family=replace(drive.family, places=either))
+    sensor = replace(sensor, family=replace(sensor.family, places={Place.SENSOR: 1.0}))
+    for ranked in ([drive, sensor], [sensor, drive]):
+        (kept,) = unlike(ranked)
+        assert kept.family.name == "reading"
+        assert kept.family.places == pytest.approx({Place.DRIVE: 0.25, Place.SENSOR: 0.75})
 
 
 def test_of_a_law_the_best_fit_stays():

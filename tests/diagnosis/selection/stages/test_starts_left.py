@@ -12,8 +12,14 @@ from diagnosis.nominal_replay import replay_nominal
 from diagnosis.prepare.noise.drift import AllowedDrift
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.record import Decision
+from diagnosis.selection.stages.sensors.sensor_drift import drift_of_the_tip_sensor
 from diagnosis.selection.stages.single_effects import single_effects
-from diagnosis.selection.stages.starts_left import STAGE, share_at_the_start, starts_of_trials
+from diagnosis.selection.stages.starts_left import (
+    STAGE,
+    share_at_the_start,
+    starts_and_more,
+    starts_of_trials,
+)
 from diagnosis.workers import Workers
 
 BENT = RigParameters(curvature_n_mm_per_mm=0.0004, curvature_phase_deg=100.0)
@@ -140,3 +146,34 @@ def test_an_imperfection_that_the_starts_had_hidden_is_found_beside_them():
     assert after.best.names == names
     _, constant_s = after.best.fit.parameterization.values(after.best.fit.x)[:2]
     assert constant_s == pytest.approx(0.005, rel=0.05)
+
+
+def drifting(log, by_deg):
+    """The log with tips that drift along a straight line."""
+    trials = [
+        Trial(
+            name=one.name,
+            table=one.table.assign(tip_angle_deg=one["tip_angle_deg"] + size * (one["time_s"] / 9.0)),
+        )
+        for one, size in zip(log.trials, by_deg, strict=True)
+    ]
+    return replace(log, trials=tuple(trials))
+
+
+def test_a_bent_needle_that_rested_is_found_beside_a_drift_of_the_tip():
+    """Neither starts nor drift explain the log alone; where trials have none, none is asked for."""
+    log = drifting(joined(rested(BENT, 1), rested(BENT, 2)), (0.2, -0.2))
+    state, alone = searched(log)
+    assert not alone.best.floor.reached
+    assert not drift_of_the_tip_sensor(state, Workers()).best.floor.reached
+    after = starts_and_more((drift_of_the_tip_sensor,))(state, Workers())
+    assert after.best.floor.reached
+    assert after.best.names == ("needle_curvature",)
+    assert after.record[-1].decision is Decision.KEPT
+    asked = []
+    starts_and_more((lambda own, _: asked.append(own) or own,))(bare(log_of(BENT)), Workers())
+    assert not asked
+
+
+def bare(log):
+    return single_effects(start_of_search(log, effects=("coulomb_friction",)), Workers())

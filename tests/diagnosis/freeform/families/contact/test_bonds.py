@@ -13,11 +13,27 @@ from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL
 from models.tissue import Interface
+from sim.discretisation import PRESLIDING_DEG
 
 ANGLE, LEVEL = turns(6.0), 0.001
 DRY = LIBRARY["coulomb_friction"].apply(NOMINAL, LEVEL)
-BONDS, AT_ENTRY, AT_TIP = families(covered(ANGLE, tip=ANGLE))
+BONDS, HEALING, AT_ENTRY, AT_TIP = families(covered(ANGLE, tip=ANGLE))
 RUBBING_TIP = replace(NOMINAL, free=FreeLaw(at_tip=(Interface(kinetic_n_mm_per_mm=0.05),)))
+
+
+def test_bonds_that_heal_at_once_are_dry_friction_and_others_are_not():
+    """All is left of bonds that do not weaken, or that have grown again before anything breaks them."""
+    assert same_readings(
+        ANGLE, HEALING.effect.apply(NOMINAL, LEVEL, PRESLIDING_DEG, 10.0, 5.0, 1.0, 0.5), DRY
+    )
+    weak = HEALING.effect.apply(NOMINAL, LEVEL, PRESLIDING_DEG, 10.0, 5.0, 0.05, 0.3)
+    assert not same_readings(ANGLE, weak, DRY)
+    for other in ((10.0, 0.5, 0.05, 0.3), (90.0, 5.0, 0.05, 0.3), (10.0, 5.0, 0.05, 0.9)):
+        law = HEALING.effect.apply(NOMINAL, LEVEL, PRESLIDING_DEG, *other)
+        assert not same_readings(ANGLE, weak, law)
+    broken, friction = HEALING.curve(LEVEL, 2.5, 9.0, 6.0, 0.1, 0.5)
+    assert (broken[0], broken[-1]) == pytest.approx((0.0, 1.0))
+    assert (friction[0], friction[-1]) == pytest.approx((LEVEL, 0.1 * LEVEL))
 
 
 def test_a_base_that_hardly_turns_has_no_such_law():

@@ -51,8 +51,25 @@ def test_damping_over_what_is_broken_follows_what_breaks_and_what_heals_it():
     assert {len(p.start) for p in FAMILIES[law].effect.parameters} == {4}
 
 
+@pytest.mark.parametrize("law", ["damping over aligned", "dry friction over aligned"])
+def test_what_depends_on_how_fibres_lie_follows_the_slip_that_lays_them(law):
+    """The curve tells how much less they resist along their lie than against it."""
+    level = (LEVEL,) if law.startswith("dry") else ()
+    same = DRY if level else NOMINAL
+    assert same_readings(ANGLE, rig_of(law, *level, 30.0, *LEVEL_CURVE), same)
+    falling = (0.0, -1.0, *LEVEL_CURVE[2:])
+    laid = rig_of(law, *level, 30.0, *falling)
+    assert not same_readings(ANGLE, laid, rig_of(law, *level, 300.0, *falling))
+    assert not same_readings(ANGLE, laid, same)
+    share, torque = FAMILIES[law].curve(*level, 30.0, *falling)
+    assert (share[0], share[-1]) == pytest.approx((0.0, 1.0))
+    assert torque[0] > torque[-1]
+    assert {len(p.start) for p in FAMILIES[law].effect.parameters} == {4}
+
+
 @pytest.mark.parametrize(
-    ("name", "own"), [("slip", ()), ("age", (RENEWAL,)), ("broken", (RENEWAL, 2.0))]
+    ("name", "own"),
+    [("slip", ()), ("age", (RENEWAL,)), ("broken", (RENEWAL, 2.0)), ("aligned", (RENEWAL,))],
 )
 def test_dry_friction_times_a_constant_is_that_of_the_library(name, own):
     law = f"dry friction over {name}"
