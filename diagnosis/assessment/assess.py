@@ -167,7 +167,7 @@ def assess(
             *lost,
             *tried.warnings,
             *moved_by_hidden(limits, accepted),
-            *_bound_warnings(near.fit.status.at_bound),
+            *_bound_warnings(near.told_at_bound),
         ),
     )
 

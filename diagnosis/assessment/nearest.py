@@ -82,7 +82,7 @@ def nearest_of(
       parameters: intervals of all fitted parameters, by effect.
       by_trial, by_motion: parameters with a value of their own in each part of the log.
     """
-    held = (*best.fit.status.at_bound, *best.fit.constants_at_bound)
+    held = (*best.told_at_bound, *best.fit.constants_at_bound)
     return Nearest(
         effects=effects,
         parameters={name: parameters[name] for name in effects if name in parameters},

@@ -152,11 +152,15 @@ class Candidate:
 
     @property
     def reached_bounds(self) -> tuple[str, ...]:
-        """Parameters of named effects that stopped at a bound, as effect.parameter."""
+        """Of named effects, those at a bound which say that no real rig is like that."""
         if self.shape_open:
             return ()
-        library = [LIBRARY[name] for name in self.names if name in LIBRARY]
-        told = {f"{effect.name}.{p.name}" for effect in library for p in effect.reported}
+        return tuple(name for name in self.told_at_bound if name.partition(".")[0] in LIBRARY)
+
+    @property
+    def told_at_bound(self) -> tuple[str, ...]:
+        """Parameters that are reported and stopped at a bound, as effect.parameter."""
+        told = {f"{name}.{p.name}" for name in self.names for p in FITTED[name].reported}
         return tuple(name for name in self.fit.status.at_bound if name in told)
 
     @property

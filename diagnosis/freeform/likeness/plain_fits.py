@@ -46,26 +46,44 @@ def with_plain_laws(
     """
     near = [f for f in likelier_first(fits) if f.final and f.fit.gap <= FAR_GAP][:MOST]
     near = [f for f in near if len(f.families) <= MOST_LAWS]
-    tasks = [Task(effects=f.fit.names, arguments=(problem, coarse, f)) for f in near]
-    found = zip(near, workers.each(STAGE, _as_plain, tasks), strict=True)
-    plain = [(curve, f) for curve, f in found if isinstance(f, FreeFit)]
+    nearest = _nearest_plain_laws(coarse, near, workers)
+    tasks = [Task(effects=f.fit.names, arguments=(problem, curve, f)) for curve, f in nearest]
+    checked = zip(nearest, workers.each(STAGE, _checked, tasks), strict=True)
+    plain = [(curve, f) for (curve, _), f in checked if isinstance(f, FreeFit)]
     replaced = [id(curve) for curve, f in plain if f.gap_after <= curve.gap_after]
     return (*(f for _, f in plain), *(f for f in fits if id(f) not in replaced))
 
 
-def _as_plain(problem: FitProblem, coarse: FitProblem, curve: FreeFit) -> FreeFit | None:
-    """The best fit of a plain law; None: the curve resembles none, or that leaves more."""
+def _nearest_plain_laws(
+    coarse: FitProblem, curves: Sequence[FreeFit], workers: Workers
+) -> list[tuple[FreeFit, FreeFit]]:
+    """Each curve that resembles plain laws, and the one of these that leaves least."""
+    pairs = [(curve, family) for curve in curves for family in _plain_families(curve)]
+    tasks = [Task(effects=own.fit.names, arguments=(coarse, own, family)) for own, family in pairs]
+    found = workers.each(STAGE, fitted_near, tasks)
+    each = [(curve, f) for (curve, _), f in zip(pairs, found, strict=True) if isinstance(f, FreeFit)]
+    nearest = [
+        (curve, min((f for own, f in each if own is curve), key=lambda f: f.score, default=None))
+        for curve in curves
+    ]
+    # What is level does not depend on the variable.
+    return [(curve, f) for curve, f in nearest if f is not None and f.family.shape != LEVEL]
+
+
+def _plain_families(curve: FreeFit) -> list[Family]:
+    """Plain laws that the curve resembles, likeliest first."""
     law = law_of(curve)
     parameterization = curve.fit.parameterization
     own = np.array([owner == curve.family.name for owner in parameterization.owners])
     values = np.array(parameterization.values(curve.fit.x))[own]
     more = any(not kind_of(p) for p in curve.family.effect.parameters)  # numbers beside those of a curve
     shapes = plain_laws_of(law, SHAPES) if more else recognised(law)[:SHAPES]
-    families = [plain_family(curve.family, values, law, shape) for shape in shapes]
-    near = [fitted_near(coarse, curve, family) for family in families if family]
-    nearest = min(near, key=lambda f: f.score, default=None)
-    if nearest is None or nearest.family.shape == LEVEL:
-        return None  # what is level does not depend on the variable
+    families = (plain_family(curve.family, values, law, shape) for shape in shapes)
+    return [family for family in families if family]
+
+
+def _checked(problem: FitProblem, curve: FreeFit, nearest: FreeFit) -> FreeFit | None:
+    """The plain law fitted to the log and checked there; None: it leaves more than the curve."""
     best = fitted_and_checked(problem, nearest, nearest.fit.x)
     if best.score >= curve.score:
         return None

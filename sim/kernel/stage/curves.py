@@ -10,7 +10,8 @@ remembers, beside its presliding, one of
     its turn one way   d past / dt = s - past |s| / renewal (the last term while s is against past)
     how fibres lie     d past / dt = (sign(s) - past) |s| / renewal
 
-or its tissue is as stiff as a curve over its twist says, or over its largest twist so far.
+where s is the rate at which it slides: of a dry contact, without its presliding. Or its tissue is as
+stiff as a curve over its twist says, or over its largest twist so far.
 """
 
 import math

@@ -103,6 +103,8 @@ def test_what_needs_a_parameter_at_a_bound_is_another_law(bound, explains):
     one = replace(scored(["tip_drag"], 1.0), fit=fit_of(names, status=status))
     assert one.explains is explains
     assert ("bound" in one.objection) is not explains
+    told = bound not in ("shear_thinning.plateau", "stiffness_error.scale")
+    assert one.told_at_bound == ((bound,) if told else ())
 
 
 def off_by(stiffness, damping, *, names=(), slopes=(1e3, 0.0)):
