@@ -75,10 +75,8 @@ UNITS: dict[MeasuredQuantity, dict[str, float]] = {
 }
 """Units of rig-log/1 in one of these, by the letters and digits of its name."""
 _BRACKETED = re.compile(r"[\[({<]([^\])}>]*)[\])}>]\W*$")
-_WITHOUT_SCALE = {
-    "counts",
-    "count",
-    "ticks",
+_COUNTS = {"counts", "count", "cnt", "cnts", "ticks"}
+_WITHOUT_SCALE = _COUNTS | {
     "v",
     "mv",
     "kip",
@@ -95,6 +93,11 @@ _WITHOUT_SCALE = {
 def factor_of(unit: str, quantity: MeasuredQuantity) -> float | None:
     """Units of rig-log/1 per unit of this name; None: not known for this quantity."""
     return UNITS[quantity].get(_plain(unit))
+
+
+def is_of_counts(unit: str) -> bool:
+    """Whether a unit is counts of an encoder, of which so many are a turn."""
+    return _plain(unit) in _COUNTS
 
 
 def is_unit(text: str) -> bool:

@@ -10,12 +10,21 @@ import numpy as np
 
 from diagnosis.criteria.lab_files import NAME_LEAST_SCORE
 from diagnosis.lab_files.readers.lab_table import Array, LabTable
-from diagnosis.lab_files.units import QUANTITIES, MeasuredQuantity, factor_of, unit_in, without_unit
+from diagnosis.lab_files.units import (
+    QUANTITIES,
+    MeasuredQuantity,
+    factor_of,
+    is_of_counts,
+    unit_in,
+    without_unit,
+)
 from diagnosis.log.unit_hints import words_of
 
 # A star stands for any end of a word; numbers at the end do not count.
-BASE = "base motor drive* driven input chuck hub prox* crank* shaft spindle enc* actuator antrieb"
-TIP = "tip distal spitze cam camera* marker* output bevel aurora needletip"
+BASE = (
+    "base motor mot surf* drive* driven input chuck hub prox* crank* shaft spindle enc* actuator antrieb"
+)
+TIP = "tip distal spitze cam camera* marker* tracker* em output bevel aurora needletip bit"
 _ANGLE = "ang* theta phi rot* pos* winkel disp* turn* roll q orient* enc*"
 _TURN = "ang* theta phi rot* winkel turn* roll orient*"
 RATE = "vel* rate omega speed* rpm gyro* acc* dot v"
@@ -58,7 +67,7 @@ def score_of(wanted: str, table: LabTable, name: str) -> float:
     base, tip = 2.0 * has_word(words, BASE), 2.0 * has_word(words, TIP)
     rate = has_word(words, RATE) or MeasuredQuantity.ANGULAR_RATE in known
     place, quaternion = _is_place(table, name, words), "w" in _axes_of(table, name)
-    angle = 2.0 * has_word(words, _ANGLE)
+    angle = 2.0 * (has_word(words, _ANGLE) or is_of_counts(unit))
     torque, depth = weight_of(words, _TORQUE), weight_of(words, _DEPTH)
     still = 3.0 * (span_of(table.columns[name]) == 0)
     # A linear rig has lengths for angles and forces for torques: asked, but not ruled out.

@@ -27,10 +27,10 @@ def header_names(above: Sequence[str], separator: str, count: int) -> list[str]:
     if not lines:
         return []
     lowest = _split(lines[-1], separator, count)
-    if not any(map(_is_unit, lowest)) or len(lines) == 1:
+    if not (any(map(_is_unit, lowest)) or all(map(_in_brackets, lowest))) or len(lines) == 1:
         return lowest
     upper = _split(lines[-2], separator, count)
-    if all(not cell or cell == "-" or _is_unit(cell) for cell in lowest):
+    if all(not cell or cell == "-" or _in_brackets(cell) or _is_unit(cell) for cell in lowest):
         return [_with_unit(*pair) for pair in zip(upper, lowest, strict=True)]
     if not _alike(lines[-2], lines[-1], separator, count):
         return lowest
@@ -74,6 +74,11 @@ def _is_header(row: Sequence[str]) -> bool:
 
 def _is_unit(cell: str) -> bool:
     return cell.lower() in _TITLES or is_unit(cell.strip(_BRACKETS))
+
+
+def _in_brackets(cell: str) -> bool:
+    """Whether a cell is a unit in brackets, known or not: `[m/h]`, `[-]`."""
+    return len(cell) > 2 and cell[0] in "[({<" and cell[-1] in "])}>"
 
 
 def _alike(upper: str, lower: str, separator: str, count: int) -> bool:

@@ -39,6 +39,11 @@ def guessed(*names, words=None):
             ("enc [counts]", "Mz (Nmm)", "EM tip roll"),
             ("base_angle_deg", "base_torque_n_mm", "tip_angle_deg"),
         ),
+        (("m1_cnt", "Tz", "em_roll"), ("base_angle_deg", "base_torque_n_mm", "tip_angle_deg")),
+        (
+            ("SURF_ANG [rad]", "TORQUE [kN.m]", "BIT_TURNS [rev]"),
+            ("base_angle_deg", "base_torque_n_mm", "tip_angle_deg"),
+        ),
         (("disp (in)", "friction force (kip)"), ("base_angle_deg", "base_torque_n_mm")),
         (
             ("insertion depth (mm)", "free length (mm)", "feed velocity (mm/s)"),

@@ -13,6 +13,8 @@ from diagnosis.lab_files.readers.text_header import header_names, settings
         ("Time,Analog 1,Analog 2", "ms,Motor speed,Torque", ["Time [ms]", "Motor speed", "Torque"]),
         ("Channel,Force,Channel,In", "Unit,V,Unit,V", ["", "Force [V]", "", "In [V]"]),
         ("t,x", "-,mm", ["t", "x [mm]"]),
+        ("TIME,RUN,ANG,RATE", "[s],[-],[rad],[m/h]", ["TIME [s]", "RUN", "ANG [rad]", "RATE [m/h]"]),
+        ("depth,rate", "[furlong],[m/h]", ["depth [furlong]", "rate [m/h]"]),
     ],
 )
 def test_names_are_kept_above_their_units(names, units, expected):
