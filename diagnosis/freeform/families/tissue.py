@@ -28,8 +28,8 @@ Array = NDArray[np.float64]
 OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.DEPTH, Variable.HISTORY)
 _FOLLOWS = Parameter(name="follows", unit="-", low=0.0, high=1.0, start=(0.5,) * 4, neutral=None)
 _OF_TWIST = {
-    ContactVariable.TWIST: ("with its twist", "torque"),
-    ContactVariable.STRAINED: ("with its largest twist so far", "history"),
+    ContactVariable.TWIST: ("with its twist", "torque", "deg"),
+    ContactVariable.STRAINED: ("with its largest twist so far", "history", "deg of twist so far"),
 }
 _EVEN_DEG, _MOST_DEG = 3.0, 45.0  # twist below which places are even, and beyond which none is
 
@@ -64,8 +64,8 @@ def _elastic_over_twist(twist: ContactVariable, ranges: LogRanges) -> Family:
     most_deg = min(0.5 * (high_deg - low_deg), _MOST_DEG)
     curve = replace(smooth_curve(0.0, 1.0, CONTACT_POINTS), places=contact_places(_EVEN_DEG, most_deg))
     law = partial(_law_over_twist, twist, curve)
-    words, says = _OF_TWIST[twist]
-    return _elastic(ranges, curve, law, over=twist, words=words, unit="deg", says=says)
+    words, says, unit = _OF_TWIST[twist]
+    return _elastic(ranges, curve, law, over=twist, words=words, unit=unit, says=says)
 
 
 def _elastic(

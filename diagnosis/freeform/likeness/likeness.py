@@ -78,7 +78,9 @@ def likeness_of(law: Law) -> Likeness | None:
     x, y = ("" if unit == "-" else f" {unit}" for unit in (law.x_unit, law.unit))
     of = f"{VARIABLES[law.variable]}{x and f' in{x}'}"
     told = [0.0 if own == values[0] and abs(own) < _NOTHING * np.ptp(law.y) else own for own in values]
-    says = shape.says.format(*told, x=x, y=y, per=x.strip() or "unit", variable=of)
+    share = x.startswith(" of ")  # of the structure that is broken, say: between 0 and 1 of it
+    per = f"1{x}" if share else x.strip() or "unit"
+    says = shape.says.format(*told, x=x, y=y, per=per, variable=of)
     says = says.removeprefix(f"0{y} + ")
     return Likeness(shape=shape.name, says=says, library=library)
 

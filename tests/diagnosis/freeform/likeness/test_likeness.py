@@ -183,6 +183,8 @@ def test_numbers_of_a_law_have_the_units_of_its_curve():
     line = curve(TIMES, 1.0 + 0.5 * TIMES, np.full(TIMES.size, 0.03), variable="time", unit="N mm")
     said = likeness_of(replace(line, x_unit="s")).says
     assert re.fullmatch(r"\S+ N mm at 0, changing by \+0\.5\S* N mm per s", said)
+    share = likeness_of(replace(line, variable="history", x_unit="of the bonds broken")).says
+    assert share.endswith("N mm per 1 of the bonds broken")
     assert likeness_of(replace(line, unit="-")).says.endswith(" per unit")
     bowl = curve(SIGNED, 2.0 + SIGNED**2, np.full(SIGNED.size, 0.1), variable="torque", unit="deg")
     said = likeness_of(replace(bowl, x_unit="N mm")).says
