@@ -68,3 +68,10 @@ MICROSECONDS_AT_LEAST = 50.0
 """The same in microseconds."""
 NANOSECONDS_AT_LEAST = 50_000.0
 """The same in nanoseconds."""
+
+# Runs: several recordings in one file (lab_files/runs.py)
+
+MOST_RUNS = 200
+"""Recordings of one file at most: a column that changes more often counts samples. A choice."""
+RUN_LEAST_ROWS = 20
+"""Rows of a recording at least. A choice: what is shorter is no trial."""

@@ -9,6 +9,7 @@ import yaml
 
 from diagnosis.lab_files.mapping import ImportMapping, as_rig
 from diagnosis.lab_files.readers.lab_table import LabFile
+from diagnosis.lab_files.runs import each_run
 from diagnosis.lab_files.series import refuse_unreadable
 from diagnosis.lab_files.trial_tables import ImportedTrial, imported_trial
 from diagnosis.log.rig_log import RigLog, read_rig_log
@@ -24,6 +25,7 @@ def imported(mapping: ImportMapping, files: Sequence[LabFile]) -> tuple[Imported
     Raises:
       InvalidValue: names the file and column.
     """
+    files = (*files, *each_run(files))
     refuse_unreadable(mapping, files)
     return tuple(imported_trial(mapping, trial, files) for trial in mapping.trials)
 

@@ -25,6 +25,7 @@ from diagnosis.lab_files.guesses.tip_candidates import TipCandidate, tip_candida
 from diagnosis.lab_files.mapping import ImportMapping, TrialSource
 from diagnosis.lab_files.motion import Motion, motion_of
 from diagnosis.lab_files.readers.lab_table import LabFile, LabTable
+from diagnosis.lab_files.runs import each_run
 from diagnosis.lab_files.series import NoTimes, Series, raw_series
 from models.errors import InvalidValue
 
@@ -72,6 +73,7 @@ class Draft:
 def drafted(files: Sequence[LabFile]) -> Draft:
     """Guess a mapping for lab files; everything that cannot be guessed is listed in `open`."""
     open_: Open = []
+    files = each_run(files)
     trials = guessed_trials(files, open_)
     tables = [table for file in files if file.path.name in trials[0].lab_files for table in file.tables]
     times = guessed_time_columns(files, open_)

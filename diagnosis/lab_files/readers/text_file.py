@@ -2,11 +2,13 @@
 
 import codecs
 import io
+import textwrap
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
+from diagnosis.criteria.lab_files import MOST_RUNS, RUN_LEAST_ROWS
 from diagnosis.criteria.log import MOST_BYTES_PER_ROW, MOST_ROWS
 from diagnosis.lab_files.readers.lab_table import Array, LabFile, LabTable
 from diagnosis.lab_files.readers.text_cells import is_date, is_empty
@@ -14,6 +16,7 @@ from diagnosis.lab_files.readers.text_header import settings
 from diagnosis.lab_files.readers.text_layout import TextLayout, text_layout
 from models.errors import InvalidValue
 
+_SHOWN = 40  # characters of labels
 _EXPORT = "export the table as text with one line per sample and a header"
 
 
@@ -96,9 +99,24 @@ def _numbers(column: pd.Series, decimal: str) -> tuple[Array | None, str]:
     if other.size == 0:
         return values, ""
     if 2 * other.size > (~empty).sum():
+        if labels := _labels_of_blocks(text):
+            return text.map(labels.index).to_numpy(float) + 1, _told_labels(labels)
         return None, f"holds text ({first[:20]!r}) and is left out"
     found = text.iloc[int(other[0])][:20]
     return values, f"holds text in {other.size} rows ({found!r} in row {other[0] + 1}): read as empty"
+
+
+def _labels_of_blocks(text: pd.Series) -> list[str]:
+    """Labels of a column, if each stands in one block of rows, as those of recordings do; else none."""
+    labels = list(dict.fromkeys(text))
+    lengths = text.groupby((text != text.shift()).cumsum()).size()
+    each_once = 2 <= len(labels) == lengths.size <= MOST_RUNS
+    return labels if each_once and lengths.min() >= RUN_LEAST_ROWS else []
+
+
+def _told_labels(labels: list[str]) -> str:
+    shown = textwrap.shorten(", ".join(labels), _SHOWN, placeholder=" ...")
+    return f"holds {len(labels)} labels ({shown}): read as 1 to {len(labels)}"
 
 
 def _seconds(text: pd.Series) -> Array:
