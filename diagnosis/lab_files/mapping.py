@@ -54,6 +54,8 @@ class ColumnSource(Record):
     """Subtracted first, in the file's unit; `first_rest`: the mean of each trial's first rest."""
     time_offset_s: float = 0.0
     """Added to the times of this column: a clock that is behind has a positive one."""
+    unwrap: bool = False
+    """Whether its readings jump by a turn at the end of their range, and turns are to be counted."""
     derive: Literal["integrate", "differentiate"] | None = None
     """Of the file's values over time: an angle from a rate, a speed from a position."""
     start: float = 0.0

@@ -20,6 +20,8 @@ from diagnosis.lab_files.series import Series, raw_series
 from diagnosis.log.trial import COLUMNS, REQUIRED
 from models.errors import InvalidValue
 
+_TURN_DEG = 360.0
+
 
 @dataclass(frozen=True, kw_only=True)
 class ImportedTrial:
@@ -82,6 +84,7 @@ def _scaled(mapping: ImportMapping, raw: Mapping[str, Series]) -> dict[str, Seri
                 )
             zero = float(np.nanmean(resting))
         values = source.scale(name) * (one.values - float(zero))
+        values = _unwrapped(values) if source.unwrap else values
         found[name] = Series(
             time_s=one.time_s,
             values=_derived(source, one.time_s, values),
@@ -89,6 +92,13 @@ def _scaled(mapping: ImportMapping, raw: Mapping[str, Series]) -> dict[str, Seri
             clock=one.clock,
         )
     return found
+
+
+def _unwrapped(values_deg: Array) -> Array:
+    """An angle that counts on, deg; empty readings stay empty."""
+    counted, good = values_deg.copy(), np.isfinite(values_deg)
+    counted[good] = np.unwrap(values_deg[good], period=_TURN_DEG)
+    return counted
 
 
 def _derived(source: ColumnSource, time_s: Array, values: Array) -> Array:

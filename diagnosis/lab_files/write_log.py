@@ -49,7 +49,7 @@ def read_back(mapping: ImportMapping, trials: Sequence[ImportedTrial]) -> RigLog
             reason = str(refused).replace(f"{folder}/", "")
             raise UnusableLog(
                 f"nothing was written, since this log would be refused; correct the column's unit, sign "
-                f"or zero in the mapping, or its file: {reason}"
+                f"or zero in the mapping (or 'unwrap: true'), or its file: {reason}"
             ) from refused
 
 

@@ -134,6 +134,22 @@ def test_an_angle_is_integrated_from_a_rate_and_a_speed_differentiated_from_a_de
     np.testing.assert_allclose(table["free_mm"], 150 - 3 * time)
 
 
+def test_an_angle_that_wraps_counts_on_where_the_mapping_says_so():
+    time = np.arange(0, 8, 0.01)
+    turned = 90.0 * time  # deg: two turns
+    wrapped = (turned + 180.0) % 360.0 - 180.0
+    wrapped[300] = np.nan
+    tip = {"column": "roll", "unit": "deg"}
+    columns = {name: LAB[name].to_numpy()[: time.size] for name in LAB} | {"roll": wrapped}
+    of = mapping_of([""])["columns"]
+    counted = in_memory(columns, columns={**of, "tip_angle_deg": {**tip, "unwrap": True}})
+    read = np.arange(time.size) != 300
+    np.testing.assert_allclose(counted["tip_angle_deg"][read], turned[read], atol=1e-9)
+    assert np.isnan(counted["tip_angle_deg"][300])
+    plain = in_memory(columns, columns={**of, "tip_angle_deg": tip})
+    np.testing.assert_allclose(plain["tip_angle_deg"], wrapped)
+
+
 def test_a_zero_from_the_first_rest_is_each_trials_own():
     columns = {name: LAB[name].to_numpy() for name in LAB}
     torque = {"column": "torque (N m)", "unit": "N m", "sign": -1, "zero": "first_rest"}
