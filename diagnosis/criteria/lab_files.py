@@ -71,7 +71,7 @@ NANOSECONDS_AT_LEAST = 50_000.0
 
 # Runs: several recordings in one file (lab_files/runs.py)
 
-MOST_RUNS = 200
+MOST_RECORDINGS = 200
 """Recordings of one file at most: a column that changes more often counts samples. A choice."""
 RUN_LEAST_ROWS = 20
 """Rows of a recording at least. A choice: what is shorter is no trial."""

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from diagnosis.criteria.lab_files import MOST_RUNS, RUN_LEAST_ROWS
+from diagnosis.criteria.lab_files import MOST_RECORDINGS, RUN_LEAST_ROWS
 from diagnosis.lab_files.readers.lab_table import Array, LabFile
 from diagnosis.lab_files.units import without_unit
 from diagnosis.log.unit_hints import words_of
@@ -37,7 +37,7 @@ def _blocks(values: Array) -> list[slice]:
     if not np.isfinite(values).all() or np.any(values != np.round(values)):
         return []
     edges = np.concatenate(([0], np.flatnonzero(np.diff(values)) + 1, [values.size]))
-    if not 2 <= edges.size - 1 <= MOST_RUNS or np.diff(edges).min() < RUN_LEAST_ROWS:
+    if not 2 <= edges.size - 1 <= MOST_RECORDINGS or np.diff(edges).min() < RUN_LEAST_ROWS:
         return []
     if np.unique(values).size < edges.size - 1:
         return []

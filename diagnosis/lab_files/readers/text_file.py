@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from diagnosis.criteria.lab_files import MOST_RUNS, RUN_LEAST_ROWS
+from diagnosis.criteria.lab_files import MOST_RECORDINGS, RUN_LEAST_ROWS
 from diagnosis.criteria.log import MOST_BYTES_PER_ROW, MOST_ROWS
 from diagnosis.lab_files.readers.lab_table import Array, LabFile, LabTable
 from diagnosis.lab_files.readers.text_cells import is_date, is_empty
@@ -110,7 +110,7 @@ def _labels_of_blocks(text: pd.Series) -> list[str]:
     """Labels of a column, if each stands in one block of rows, as those of recordings do; else none."""
     labels = list(dict.fromkeys(text))
     lengths = text.groupby((text != text.shift()).cumsum()).size()
-    each_once = 2 <= len(labels) == lengths.size <= MOST_RUNS
+    each_once = 2 <= len(labels) == lengths.size <= MOST_RECORDINGS
     return labels if each_once and lengths.min() >= RUN_LEAST_ROWS else []
 
 
