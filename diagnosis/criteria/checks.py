@@ -31,8 +31,9 @@ TORQUE_OVER_TWIST = 5.0
 Where the tip is not measured, over what the swing of the base does: 1.43 at most in 94 logs."""
 
 OTHER_UNIT_SWING = 5.0
-"""Factor within which the swing of a trial in another unit agrees with that unit: half of sqrt(57) or
-less, the middle between two units, and more than what depth and speed do to a lag."""
+"""Factor within which the swing of a trial in another unit agrees with that unit: below sqrt(57) = 7.6,
+the middle between degrees and radians, and above what depth and speed do to a lag. A choice: the scatter
+has to agree as well."""
 
 # Scales: what is in another unit than the rig's own (log/checks/)
 

@@ -39,6 +39,17 @@ def run_stages(stages: Sequence[Stage], state: SearchState, workers: Workers) ->
     return state
 
 
+def first_that_explains(
+    stages: Sequence[Stage], state: SearchState, workers: Workers
+) -> SearchState | None:
+    """The state after the first of some stages that explains the log; None: none does."""
+    for stage in stages:
+        after, explained = stage(state, workers).rechecked()
+        if explained:
+            return after
+    return None
+
+
 def screen_all(
     stage: str, calls: Sequence[tuple[FitProblem, Fit, str]], workers: Workers
 ) -> tuple[list[Screened], tuple[RecordEntry, ...]]:

@@ -29,7 +29,7 @@ from diagnosis.replay.replay import replay
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.stages.sensors.imperfections import imperfections_beside_the_best
-from diagnosis.selection.stages.stage import Stage, near_fitted_again
+from diagnosis.selection.stages.stage import Stage, first_that_explains, near_fitted_again
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -71,11 +71,9 @@ def starts_and_more(others: Sequence[Stage]) -> Stage:
         if explained or share_at_the_start(state) < START_LEFT_BESIDE:
             return state
         begun = near_fitted_again(STAGE, state, _with_pasts(state), workers, EXCHANGE_GAP)
-        for other in others:
-            again, explained = other(begun, workers).rechecked()
-            if explained:
-                return again.noting(noted(STAGE, Decision.KEPT, "with such starts it explains the log"))
-        return state
+        found = first_that_explains(others, begun, workers)
+        reason = "with such starts it explains the log"
+        return found.noting(noted(STAGE, Decision.KEPT, reason)) if found else state
 
     return starts_and_another_imperfection
 

@@ -68,6 +68,20 @@ _SMOOTH = (-1.0, 1.0) * 2  # slope of a curve over the fibres along the slip to 
 _BITES = (-2.0, 2.0)  # slope of a curve over the slip since it turned back to start with
 _TURNS_BACK_DEG = 0.3  # slip after which it counts as turned back
 _WEAKENS = (-1.0,) * 4  # slope of a curve over what is broken to start with
+_STARTING: dict[ContactVariable, tuple[tuple[Parameter, ...], tuple[float, ...]]] = {
+    ContactVariable.HEAT: ((_FADING,), (_CHANGES, -_CHANGES)),
+    ContactVariable.BROKEN: ((_BREAKING, _HEALING), _WEAKENS),
+    ContactVariable.ALIGNED: ((_LAYING,), _SMOOTH),
+    ContactVariable.TURNED: ((), _BITES),
+}
+"""What a contact remembers by, and slopes of the curve to start with."""
+_REMEMBERS = {
+    ContactVariable.AGE: ("renewal_deg",),
+    ContactVariable.HEAT: ("fading_s",),
+    ContactVariable.BROKEN: ("renewal_deg", "fading_s"),
+    ContactVariable.ALIGNED: ("renewal_deg",),
+}
+"""Fields of its record that are fitted."""
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -115,7 +129,7 @@ def _broken_share() -> ContactCurve:
 
 
 def _aligned_share() -> ContactCurve:
-    """A neutral curve over the share of fibres that lie along the slip; close places near 0."""
+    """A neutral curve over the share of fibres that lie along the slip."""
     return _neutral(ContactVariable.ALIGNED, 1.0, 1.0)
 
 
@@ -126,14 +140,8 @@ def _neutral(over: ContactVariable, scale: float, last: float) -> ContactCurve:
 def _damping_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
     curve = smooth_curve(0.0, 1.0, CONTACT_POINTS)
     shape = coordinates_of(curve)
-    if neutral.over is ContactVariable.HEAT:
-        shape = _starting((_FADING,), shape, (_CHANGES, -_CHANGES))
-    elif neutral.over is ContactVariable.BROKEN:
-        shape = _starting((_BREAKING, _HEALING), shape, _WEAKENS)
-    elif neutral.over is ContactVariable.ALIGNED:
-        shape = _starting((_LAYING,), shape, _SMOOTH)
-    elif neutral.over is ContactVariable.TURNED:
-        shape = _starting((), shape, _BITES)
+    if neutral.over in _STARTING:
+        shape = _starting(shape, *_STARTING[neutral.over])
     return Family(
         effect=Effect(
             name=f"damping over {neutral.over}",
@@ -152,7 +160,7 @@ def _damping_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
 
 
 def _starting(
-    memory: tuple[Parameter, ...], shape: tuple[Parameter, ...], slopes: tuple[float, ...]
+    shape: tuple[Parameter, ...], memory: tuple[Parameter, ...], slopes: tuple[float, ...]
 ) -> tuple[Parameter, ...]:
     """What a contact remembers by, and the coordinates of a curve that start with these slopes."""
     level, change, *rest = (replace(p, start=len(slopes) * p.start) for p in shape)
@@ -176,14 +184,8 @@ def _friction_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
     if neutral.over is ContactVariable.AGE:
         grows = replace(shape[1], start=(_GROWS,))
         shape = (_RENEWAL, shape[0], grows, *shape[2:])
-    elif neutral.over is ContactVariable.BROKEN:
-        shape = _starting((_BREAKING, _HEALING), shape, _WEAKENS)
-        level = replace(level, start=level.start[-1:])
-    elif neutral.over is ContactVariable.ALIGNED:
-        shape = _starting((_LAYING,), shape, _SMOOTH)
-        level = replace(level, start=level.start[-1:])
-    elif neutral.over is ContactVariable.TURNED:
-        shape = _starting((), shape, _BITES)
+    elif neutral.over in _STARTING:
+        shape = _starting(shape, *_STARTING[neutral.over])
         level = replace(level, start=level.start[-1:])
     each = len(shape[0].start)
     level = replace(level, start=level.start * each) if each > 1 else level
@@ -219,11 +221,7 @@ def _apply_friction(
 
 def _shaped(neutral: ContactCurve, curve: SmoothCurve, shape: Sequence[float]) -> ContactCurve:
     """The curve with its coordinates; what renews or fades what it is over comes first."""
-    if neutral.over in (ContactVariable.AGE, ContactVariable.ALIGNED):
-        neutral, shape = neutral.but(renewal_deg=shape[0]), shape[1:]
-    elif neutral.over is ContactVariable.HEAT:
-        neutral, shape = neutral.but(fading_s=shape[0]), shape[1:]
-    elif neutral.over is ContactVariable.BROKEN:
-        neutral, shape = neutral.but(renewal_deg=shape[0], fading_s=shape[1]), shape[2:]
-    changed: ContactCurve = neutral.but(factors=curve.factors(shape))
+    fields = _REMEMBERS.get(neutral.over, ())
+    memory = dict(zip(fields, shape, strict=False))
+    changed: ContactCurve = neutral.but(factors=curve.factors(shape[len(fields) :]), **memory)
     return changed

@@ -21,7 +21,7 @@ from diagnosis.log.faults.outlying import few, outlying
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision, noted
-from diagnosis.selection.stages.stage import Stage, leading_fitted_again
+from diagnosis.selection.stages.stage import Stage, first_that_explains, leading_fitted_again
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -80,13 +80,9 @@ def outliers_and_more(others: Sequence[Stage]) -> Stage:
     def outliers_and_another_imperfection(state: SearchState, workers: Workers) -> SearchState:
         state, explained = state.rechecked()
         without = None if explained else _without_outliers(state, workers)
-        if without is None:
-            return state
-        for other in others:
-            again, explained = other(without, workers).rechecked()
-            if explained:
-                return again.noting(noted(STAGE, Decision.KEPT, "without them it explains the log"))
-        return state
+        found = first_that_explains(others, without, workers) if without else None
+        reason = "without them it explains the log"
+        return found.noting(noted(STAGE, Decision.KEPT, reason)) if found else state
 
     return outliers_and_another_imperfection
 

@@ -41,6 +41,7 @@ from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.sensors.coloured_noise import noise_of_the_best
 from diagnosis.selection.stages.stage import (
     Stage,
+    first_that_explains,
     fitted_again,
     leading_on_the_log,
     leading_sets,
@@ -98,13 +99,7 @@ jumps_of_readings = jumps_and_more(())
 def _explained(jumping: SearchState, others: Sequence[Stage], workers: Workers) -> SearchState | None:
     """The state with a jump, or with one of the others beside it, if that explains the log."""
     again, explained = jumping.rechecked()
-    if explained:
-        return again
-    for other in others:
-        again, explained = other(jumping, workers).rechecked()
-        if explained:
-            return again
-    return None
+    return again if explained else first_that_explains(others, jumping, workers)
 
 
 def _objection(state: SearchState, jump: ReadingJump, workers: Workers) -> str:

@@ -125,7 +125,9 @@ def _searched_again(state: SearchState, sensor: str, noise: Noise, workers: Work
     drifting = state.renoised(noise).noting(noted(stage, Decision.KEPT, reason))
     start = replace(drifting, candidates=(), singles=(), pairs=(), triples=())
     noise = start.coarse.noise
-    known = (state.singles, state.pairs) if state.singles else _on_the_decimated_log(state, workers)
+    known = (state.singles, state.pairs)
+    if not state.singles:
+        known = _on_the_decimated_log(stage, state, workers)
     sets = ([in_noise(c, state.coarse, noise) for c in own] for own in known)
     contenders = [c for own in sets for c in leading_sets(own)]
     least = min((c.fit.cost for c in contenders), default=float("inf"))
@@ -140,12 +142,15 @@ def _searched_again(state: SearchState, sensor: str, noise: Noise, workers: Work
     return best_without_each_effect(found, workers)
 
 
-def _on_the_decimated_log(state: SearchState, workers: Workers) -> tuple[list[Candidate], ...]:
+def _on_the_decimated_log(
+    stage: str, state: SearchState, workers: Workers
+) -> tuple[tuple[Candidate, ...], tuple[Candidate, ...]]:
     """The leading explanations there, of a log whose rows have changed: single effects, and pairs."""
     coarse, leading = state.coarse, [c for c in leading_on_the_log(state) if c.names]
     calls = [(coarse, c.names, coarse.parameterization(c.names).joined(c.fit.parts)) for c in leading]
-    found, _ = fit_all(_STAGES[TIP], calls, workers)
-    return tuple([c for c in found if len(c.names) == size] for size in (1, 2))
+    found, _ = fit_all(stage, calls, workers)
+    singles, pairs = (tuple(c for c in found if len(c.names) == size) for size in (1, 2))
+    return singles, pairs
 
 
 def _dropped(sensor: str, reason: str) -> RecordEntry:

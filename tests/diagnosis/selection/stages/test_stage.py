@@ -11,7 +11,13 @@ from diagnosis.fitting.fit import fit_effects
 from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages import stage as module
-from diagnosis.selection.stages.stage import not_worth, run_stages, screen_all, stopped_in
+from diagnosis.selection.stages.stage import (
+    first_that_explains,
+    not_worth,
+    run_stages,
+    screen_all,
+    stopped_in,
+)
 from diagnosis.stopping import StopSignal
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
@@ -31,6 +37,23 @@ def test_stages_run_while_there_is_time_and_are_told_of_when_there_is_not(still_
 
 def test_the_first_stage_runs_in_any_case(still_start):
     assert run_stages((noting,), still_start, Workers(stop=StopSignal(1e-9))).record == ("ran",)
+
+
+def test_of_stages_the_first_that_explains_the_log_counts_and_the_others_are_not_asked(
+    still_start, monkeypatch
+):
+    """Each begins where the state is, not where the one before has come to."""
+    monkeypatch.setattr(type(still_start), "rechecked", lambda own: (own, "explains" in own.record))
+
+    def useless(state, _):
+        return state.noting("useless")
+
+    def explaining(state, _):
+        return state.noting("explains")
+
+    found = first_that_explains((useless, explaining, useless), still_start, Workers())
+    assert found.record == ("explains",)
+    assert first_that_explains((useless,), still_start, Workers()) is None
 
 
 def test_screening_keeps_all_starts_and_records_what_cannot_be_simulated(dry_start):
