@@ -10,6 +10,7 @@ from diagnosis.freeform.law_curve import Law
 _WIDEST, _FEWEST = 4.0, 3  # width of a band that tells something, of the median of |curve|; points
 _STRONGER = 1.05  # times as strong one way, from which that is told
 _ABRUPT = 0.02  # of the range of x, within which a step is one
+_NOTHING = 1e-6  # of the range of x or y: told as 0
 _MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises or falls
 
 
@@ -22,7 +23,7 @@ def course_of(law: Law) -> str:
         return f"{law.title}, {change} at {0.5 * (law.x[1] + law.x[2]):.2f} {law.x_unit}"
     if law.variable == "direction":
         return f"{law.title} {_by_direction(law.y[0], law.y[-1], own)}"
-    x, y = _determined(law)
+    x, y = (_rounded_to_zero(values) for values in _determined(law))
     low, high = min(y), max(y)
     if high == low:
         return f"{law.title} is {low:.3g}{own}"
@@ -37,6 +38,12 @@ def course_of(law: Law) -> str:
             between = f"from trial {x[0]:.0f} to trial {x[-1]:.0f}"
         return f"{law.title} {verb} from {y[0]:.3g} to {y[-1]:.3g}{own} {between}"
     return f"{law.title} varies between {low:.3g} and {high:.3g}{own}"
+
+
+def _rounded_to_zero(values: Sequence[float]) -> tuple[float, ...]:
+    """Values with 0 for those that are nothing beside their range."""
+    nothing = _NOTHING * (max(values) - min(values))
+    return tuple(0.0 if abs(value) < nothing else value for value in values)
 
 
 def _step_at(x: Sequence[float], y: Sequence[float]) -> float | None:

@@ -54,12 +54,14 @@ def what_is_missing(missing: Missing, gap_before: float, gap_after: float | None
     )
     left = first.gap_after if gap_after is None else gap_after
     loose = left > _LOOSE * first.gap_after
-    allowing = f", {over_sigma(first.gap_after)} times noise and the width of the band" if loose else ""
+    allowing = (
+        f", {over_sigma(first.gap_after)} times what noise and the band account for" if loose else ""
+    )
     falls = f"the residual from {in_sigma(gap_before)} to {in_sigma(left)} {where}{allowing}"
     if first.gap_after > FAR_GAP:
         return f"{depends} {_with_so_many_more(missing.beside, beside)} {falls}; {_HINT}."
     each = zip(missing.beside, more, strict=True)
-    others = "".join(f" {_more_of(law, course)}" for law, course in each)
+    others = "".join(f" {_more_of(law, course, i)}" for i, (law, course) in enumerate(each))
     reduces = "Together they reduce" if others else f"A free-form law of this kind{beside} reduces"
     return f"{depends}{others} {reduces} {falls}{_beside(missing)}.{_likeness(law)}"
 
@@ -77,7 +79,9 @@ def _unseen(determined_share: float) -> str:
         return SEEN
     if determined_share >= _MOST_TOLD:
         return UNSEEN
-    return f"{UNSEEN} (others tell of the law in {100 * determined_share:.0f} % of the readings)"
+    return (
+        f"{UNSEEN} (other trials determine the law in {100 * determined_share:.0f} % of their readings)"
+    )
 
 
 def _with_so_many_more(more: Sequence[Law], beside: str) -> str:
@@ -127,12 +131,17 @@ def _seen_period_deg(law: Law, missing: Missing, family: Family) -> float:
     return period if law.x[-1] - law.x[0] >= _SEEN_AGAIN * period else 0.0
 
 
-def _more_of(law: Law, course: str) -> str:
-    """A sentence on a law beside the leading one, or on its factor."""
+def _more_of(law: Law, course: str, before: int) -> str:
+    """A sentence on a law beside the leading one, or on its factor.
+
+    Args:
+      before: laws that were told before, without the leading one.
+    """
     of = VARIABLES[law.variable]
     if law.multiplies:
         return f"It is multiplied by a factor that depends on {of}: {course}."
-    return f"Another law is needed as well, {PLACES[law.place]}; it depends on {of}: {course}."
+    which = "Another" if before == 0 else "Yet another"
+    return f"{which} law is needed as well, {PLACES[law.place]}; it depends on {of}: {course}."
 
 
 def _likeness(law: Law) -> str:

@@ -54,6 +54,11 @@ def test_a_step_is_told_with_its_place(x, y, said):
     assert said in course_of(law)
 
 
+def test_what_is_nothing_beside_its_range_is_told_as_zero():
+    law = replace(LAW, x=(1.2e-21, 4.0, 8.0), x_unit="turns", y=(0.0, 1.0, 2.0))
+    assert "between 0 and 8 turns" in course_of(replace(law, low=law.y, high=law.y))
+
+
 def test_an_event_that_passes_is_told_by_the_level_that_it_comes_to():
     """Tissue that gives way, and recovers; a step one way, and back."""
     time_s = (-1.0, 4.9, 5.1, 6.0, 9.0)

@@ -113,6 +113,11 @@ def test_laws_that_were_fitted_together_are_told_one_by_one():
         in said
     )
     assert "with the time" not in said  # as if that were enough
+    third = replace(best, others=(*best.others, *best.others))
+    said = what_is_missing(missing_with(beside=(other, other), best=third), 8.9)
+    assert said.index("Another law is needed as well, ") < said.index(
+        "Yet another law is needed as well, "
+    )
 
 
 ONE_MORE = "one between shaft and tissue that depends on the rate of turning"
@@ -155,7 +160,8 @@ def test_far_above_the_noise_places_have_no_probabilities():
     [
         (
             3.2,
-            "to 3.20 σ on trials that its fit has not seen, 1.03 times noise and the width of the band",
+            "to 3.20 σ on trials that its fit has not seen, "
+            "1.03 times what noise and the band account for",
         ),
         (1.05, "to 1.05 σ on trials that its fit has not seen;"),
     ],
@@ -198,10 +204,10 @@ def test_of_what_happened_once_nothing_is_called_unseen():
 
 def test_of_what_has_a_phase_of_its_own_in_each_trial_nothing_is_called_unseen():
     best = seen_fit()
-    assert "others tell" not in what_is_missing(missing_with(best=best), 8.9)
+    assert "other trials determine" not in what_is_missing(missing_with(best=best), 8.9)
     assert "not seen" in what_is_missing(missing_with(best=best), 8.9)
     told = what_is_missing(missing_with(best=best, determined_share=0.57), 8.9)
-    assert "not seen (others tell of the law in 57 % of the readings)" in told
+    assert "not seen (other trials determine the law in 57 % of their readings)" in told
     effect = best.family.effect
     own = tuple(replace(p, of_one_trial=True) for p in effect.parameters)
     waves = replace(best, family=replace(best.family, effect=replace(effect, parameters=own)))
