@@ -94,7 +94,8 @@ def fits_in_noise(
     """
     (_, coarse), (problem, quieter) = before, after
     finals = [f for f in fits if f.final]
-    fitted = each_fit(FITTING, full_fit, [(quieter, f, np.inf, f.fit.x) for f in finals], workers)
+    enough = (WORTH_A_FINAL * CLOSED_GAP) ** 2 * quieter.samples
+    fitted = each_fit(FITTING, full_fit, [(quieter, f, enough, f.fit.x) for f in finals], workers)
     if not fitted or _open(fitted):
         return free_form_fits(problem, quieter, effects, workers)
     calls = [(problem, f, False) for f in _finalists(fitted, False)]

@@ -269,6 +269,8 @@ def in_half_the_noise(monkeypatch):
 
         def fitted_anew(coarse, one, enough, start):
             assert coarse is half
+            # what stays above this is no finalist beside a law that closes the gap
+            assert enough == pytest.approx((search.WORTH_A_FINAL * CLOSED_GAP) ** 2 * half.samples)
             np.testing.assert_array_equal(start, one.fit.x)
             return leaving(half, one.family.name, gap, final=False)
 
