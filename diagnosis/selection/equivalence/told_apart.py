@@ -25,10 +25,10 @@ from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.checked import Checked, check
 from diagnosis.selection.equivalence.equivalent_sets import (
     Equivalent,
-    Parts,
     covers,
     equivalent_sets,
 )
+from diagnosis.selection.equivalence.noiseless_log import Parts
 from diagnosis.selection.equivalence.weak_forms import WeakForm, weak_forms, with_their_scores
 from diagnosis.selection.fitting import candidates_of, fit_in_turn
 from diagnosis.selection.scoring.replay_errors import without_replay_errors
