@@ -13,7 +13,8 @@ from datetime import date
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.assessment.assess import Assessment, assess
+from diagnosis.assessment.assess import assess
+from diagnosis.assessment.assessment import Assessment
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.assessment.uncertainty.absent_effects import without_absent
 from diagnosis.assessment.uncertainty.hidden_effects import with_hidden_effects

@@ -5,7 +5,7 @@ from datetime import date
 
 import pandas as pd
 
-from diagnosis.assessment.assess import Assessment
+from diagnosis.assessment.assessment import Assessment
 from diagnosis.freeform.missing.missing import Missing
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.rig_log import RigLog

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 from diagnosis_fixtures import ENDED, NOISE, RIG, log_with, prepared, trial
 
-from diagnosis.assessment.assess import Assessment
+from diagnosis.assessment.assessment import Assessment
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.nuisance import nuisance_of

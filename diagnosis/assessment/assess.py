@@ -1,50 +1,47 @@
 """Everything that is reported in addition to the verdict."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache, partial
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.assessment.advice import advise
+from diagnosis.assessment.advice.advice import advise
+from diagnosis.assessment.assessment import Assessment
+from diagnosis.assessment.attempts import Attempts
 from diagnosis.assessment.detection_limits import DetectionLimit, detection_limits
 from diagnosis.assessment.forward_step import Further, further_effects, gap_with_one_more, has_room
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
 from diagnosis.assessment.moved_by_hidden import moved_by_hidden
-from diagnosis.assessment.nearest import ONE_MORE, Nearest, nearest_candidate, nearest_of
-from diagnosis.assessment.sensor_errors import SensorErrors, sensor_errors
+from diagnosis.assessment.nearest import ONE_MORE, nearest_candidate, nearest_of
+from diagnosis.assessment.replayed import Replayed
+from diagnosis.assessment.sensor_errors import sensor_errors
+from diagnosis.assessment.twist_by_effect import twist_by_effect
 from diagnosis.assessment.uncertainty.intervals import Interval, covariance, intervals
-from diagnosis.assessment.uncertainty.joint_uncertainty import JointUncertainty, joint_uncertainty
+from diagnosis.assessment.uncertainty.joint_uncertainty import joint_uncertainty
 from diagnosis.assessment.uncertainty.partitions import by_motion, trial_by_trial
 from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart, values_by_part
 from diagnosis.fitting.held_out.cross_validation import information
 from diagnosis.fitting.noise_reestimation import in_units_of
-from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.rig_log import RigLog
-from diagnosis.nominal_replay import at_samples, nominal_residuals
+from diagnosis.nominal_replay import nominal_residuals
 from diagnosis.replay.accuracy.numerical_error import (
     numerical_error,
     numerical_warnings,
     refinement_change,
 )
-from diagnosis.replay.drift import with_drift
 from diagnosis.replay.prediction import Prediction
-from diagnosis.replay.replay import replay
-from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
-from diagnosis.replay.twist import ShaftTwist, shaft_twist
 from diagnosis.residuals.largest_moment import largest_moment
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
-from diagnosis.residuals.residual_shape import ResidualShape, residual_shape
-from diagnosis.residuals.trial_residual import TrialResidual, trial_residuals
+from diagnosis.residuals.residual_shape import residual_shape
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 from diagnosis.stopping import StopSignal, stopping
 from diagnosis.workers import Failure, Workers
-from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
@@ -57,47 +54,6 @@ _NO_PARTS: tuple[tuple[ValuesByPart, ...], ...] = ()
 ORDER = "order of the effects by strength"
 TWIST, BY_PART = "twist along the shaft", "values by trial and motion"
 """Parts that a stop leaves out."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Assessment:
-    """What is reported in addition to the verdict.
-
-    Attributes:
-      gap: before and after, on held-out trials.
-      nearest: the best explanation that was tried, whatever the verdict.
-      breakdown: breakdown of the residual of the nominal rig.
-      breakdown_after: breakdown of the residual of the nearest explanation.
-      shape, shape_after: shape of the same two residuals.
-      parameters: intervals of parameters, by accepted effect.
-      joint: joint uncertainty of the parameters of the nearest explanation.
-      sensors: errors of sensors that the nearest explanation allows for.
-      with_one_more: gap that the best fit may reach with one more effect, by effect.
-      detection_limits: largest strength that may go unseen, by effect; empty if the log is not
-        explained, or explained by two effects.
-      next_experiment: in words; empty if nothing is left to tell apart.
-      numerical_error: numerical error of the replay, in sigma, by sensor; empty if there was no time.
-      explained: readings that the nearest explanation predicts, at the samples of the log, by trial.
-      twist: twist along the shaft at the time of the largest nominal residual, by the nominal rig, with
-        each effect alone and with all; None if there was no time.
-    """
-
-    gap: GapReduction
-    nearest: Nearest
-    breakdown: ResidualBreakdown
-    breakdown_after: ResidualBreakdown
-    shape: ResidualShape
-    shape_after: ResidualShape
-    parameters: dict[str, dict[str, Interval]]
-    joint: JointUncertainty
-    sensors: SensorErrors
-    with_one_more: dict[str, float]
-    detection_limits: dict[str, DetectionLimit]
-    next_experiment: str
-    numerical_error: dict[str, float]
-    explained: list[Prediction]
-    twist: ShaftTwist | None
-    warnings: tuple[str, ...]
 
 
 def assess(
@@ -124,15 +80,15 @@ def assess(
     complete = not stop.left_out
     further = cache(lambda: _further(coarse, verdict, effects, workers))  # where it is asked for first
     near, after, lost = nearest_candidate(problem, coarse, nominal, verdict, further, effects, workers)
-    read = _Replayed.of(log, problem, nominal, near)
+    read = Replayed.of(log, problem, nominal, near)
     arguments = (problem.log, problem.noise, read.rig, read.predictions, problem.resolution)
     change = stop.unless_due(FINER, lambda: refinement_change(*arguments)) or []
     error = numerical_error(change) if change else {}
     where = residual_breakdown(read.before), residual_breakdown(read.left)
-    tried = _Attempts()
+    tried = Attempts()
     named = verdict.effects or tried.or_else(ORDER, lambda: strongest_first(problem, near), near.named)
     spread_of = workers.begin(partial(covariance, problem, near.fit, change, left=_above_noise(near)))
-    twist_of = workers.begin(_twist, problem, near, named, largest_moment(read.before))
+    twist_of = workers.begin(twist_by_effect, problem, near, named, largest_moment(read.before))
     beside = further()
     with_one_more = gap_with_one_more(verdict.best.fit, beside) if beside else {}
     spread = tried.or_else(REPLICATES, spread_of, _inverse_information(near))
@@ -172,63 +128,11 @@ def assess(
     )
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class _Replayed:
-    """What the nearest explanation predicts, and what it and the nominal rig leave.
-
-    Attributes:
-      predictions: by trial of the problem.
-      explained: at the samples of the log, with drift of the sensors.
-      before, left: residuals of the nominal rig, and of the explanation.
-    """
-
-    rig: RigParameters
-    predictions: list[Prediction]
-    explained: list[Prediction]
-    before: Sequence[TrialResidual]
-    left: Sequence[TrialResidual]
-
-    @classmethod
-    def of(
-        cls, log: RigLog, problem: FitProblem, nominal: Sequence[Prediction], near: Candidate
-    ) -> "_Replayed":
-        """Of an explanation; the nominal rig was replayed before."""
-        rig = near.fit.parameterization.rig(near.fit.x)
-        predictions = replay(problem.log, rig, problem.resolution)
-        explained = at_samples(problem, with_drift(problem.log, problem.noise, predictions))
-        return cls(
-            rig=rig,
-            predictions=predictions,
-            explained=explained,
-            before=trial_residuals(log, at_samples(problem, nominal), problem.noise),
-            left=trial_residuals(log, explained, problem.noise),
-        )
-
-
 def _gap(problem: FitProblem, nominal: Sequence[Prediction], after: Sequence[Array]) -> GapReduction:
     """The gap before and after, in units of the noise as if it were white."""
     plain = problem.noise.uncoloured
     before = nominal_residuals(replace(problem, noise=plain), nominal)
     return gap_reduction(before, in_units_of(problem, after, plain))
-
-
-class _Attempts:
-    """What is told beside a verdict, which stands where that cannot be simulated.
-
-    Attributes:
-      warnings: what could not be, and why.
-    """
-
-    def __init__(self) -> None:
-        self.warnings: list[str] = []
-
-    def or_else(self, what: str, make: Callable[[], T], otherwise: T) -> T:
-        """What `make` returns, or something else and a warning where that cannot be simulated."""
-        try:
-            return make()
-        except SimulationFailed as error:
-            self.warnings.append(f"{what}: could not be simulated ({error})")
-            return otherwise
 
 
 def _advice(
@@ -253,32 +157,6 @@ def _next_experiment(
     if not whole and verdict.kind in (VerdictKind.EXPLAINED, VerdictKind.UNDECIDED):
         stop.leave_out(NEXT)
     return advice
-
-
-def _twist(
-    problem: FitProblem, near: Candidate, effects: Sequence[str], moment: tuple[str, float]
-) -> ShaftTwist | None:
-    """Twist along the shaft at a moment, by the nominal rig, with each effect alone and with all.
-
-    None if that cannot be simulated, or after a stop.
-    """
-    if stopping():
-        return None
-    rigs = {"nominal": NOMINAL}
-    if len(effects) > 1:
-        rigs |= {name: _alone(problem, near, name, effects) for name in effects}
-    rigs["explained"] = near.fit.parameterization.rig(near.fit.x)
-    try:
-        return shaft_twist(problem.log, *moment, rigs)
-    except SimulationFailed:
-        return None
-
-
-def _alone(problem: FitProblem, near: Candidate, name: str, effects: Sequence[str]) -> RigParameters:
-    """The rig with one of several effects, and with the fitted nuisance parameters."""
-    nuisance = [e for e in near.fit.parameterization.nuisance if e.name not in effects]
-    alone = parameterization_of([name], nuisance, problem.library, problem.base)
-    return alone.rig(alone.joined({e.name: near.fit.parts[e.name] for e in alone.all}))
 
 
 def _by_parts(

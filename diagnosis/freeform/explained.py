@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.assessment.assess import Assessment
+from diagnosis.assessment.assessment import Assessment
 from diagnosis.assessment.gap_reduction import gap_reduction
 from diagnosis.assessment.sensor_errors import sensor_errors
 from diagnosis.fitting.noise_reestimation import in_units_of

@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from diagnosis.assessment.assess import Assessment, assess
+from diagnosis.assessment.assess import assess
+from diagnosis.assessment.assessment import Assessment
 from diagnosis.criteria.freeform import CLOSED_GAP
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem

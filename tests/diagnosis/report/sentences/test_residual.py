@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 from diagnosis_fixtures import concluding
 
-from diagnosis.assessment.advice import advise
+from diagnosis.assessment.advice.advice import advise
 from diagnosis.in_sigma import in_sigma
 from diagnosis.prepare.prepare import prepare
 from diagnosis.report.sentences.residual import (

@@ -6,9 +6,9 @@ its leading parameter. If several are left: the run or the calibration that woul
 
 from collections.abc import Sequence
 
-from diagnosis.assessment.experiments import experiments, has_axis, sliding_experiments
-from diagnosis.assessment.next_experiment import best_experiment, narrowest
-from diagnosis.assessment.remedies import Parameters, check_that_tells, remedies
+from diagnosis.assessment.advice.experiments import experiments, has_axis, sliding_experiments
+from diagnosis.assessment.advice.next_experiment import best_experiment, narrowest
+from diagnosis.assessment.advice.remedies import Parameters, check_that_tells, remedies
 from diagnosis.criteria.assessment import DECISIVE_SIGMA, KNOWN_WELL, MOST_RUNS, WORTH_A_RUN
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, TIP, fit_of, log_of, problem_of
 
-from diagnosis.assessment.experiments import SAMPLE_S, experiments
-from diagnosis.assessment.next_experiment import best_experiment, narrowest, narrowing, separation
+from diagnosis.assessment.advice.experiments import SAMPLE_S, experiments
+from diagnosis.assessment.advice.next_experiment import best_experiment, narrowest, narrowing, separation
 from diagnosis.replay.rig_parameters import NOMINAL
 
 BIAS_DEG = 0.05

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import RIG
 
-from diagnosis.assessment.remedies import check_that_tells, in_words, remedies
+from diagnosis.assessment.advice.remedies import check_that_tells, in_words, remedies
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.effects import LIBRARY
 

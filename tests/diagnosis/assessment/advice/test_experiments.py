@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
-from diagnosis.assessment.experiments import (
+from diagnosis.assessment.advice.experiments import (
     SAMPLE_S,
     experiments,
     has_axis,

@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import pytest
 from diagnosis_fixtures import RIG, prepared, scored, trial, turns
 
-from diagnosis.assessment import advice
-from diagnosis.assessment.advice import advise
-from diagnosis.assessment.experiments import Experiment
-from diagnosis.assessment.next_experiment import Narrowing, Proposal
+from diagnosis.assessment.advice import advice
+from diagnosis.assessment.advice.advice import advise
+from diagnosis.assessment.advice.experiments import Experiment
+from diagnosis.assessment.advice.next_experiment import Narrowing, Proposal
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.criteria.assessment import KNOWN_WELL
 from diagnosis.effects import LIBRARY

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.assessment.experiments import SAMPLE_S, Experiment
+from diagnosis.assessment.advice.experiments import SAMPLE_S, Experiment
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.held_out.cross_validation import information
 from diagnosis.fitting.problem import FitProblem
