@@ -42,22 +42,49 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     at_floor = _without_needless_scatter(_explaining(candidates))
     at_floor = at_floor or [c for c in candidates if c.refused_as_none]
     if not at_floor:
-        return Verdict(
-            kind=VerdictKind.UNKNOWN,
-            effects=(),
-            confusable=(),
-            best=_nearest(candidates),
-            ranking=ranking_of(candidates, None),
-        )
+        return _unknown(candidates)
     best = _simplest(at_floor)
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
+    alike = _alike(candidates, at_floor, best, reached)
+    refused = _refused(candidates, alike, best, reached)
+    rivals = sorted((*refused, *alike), key=lambda c: less_likely(best, c, reached))
+    return Verdict(
+        kind=_kind(best, rivals, reached),
+        effects=best.named,
+        confusable=distinct(tuple(c.named) for c in (best, *rivals)) if rivals else (),
+        best=best,
+        rivals=tuple(rivals),
+        ranking=ranking_of((*at_floor, *refused), best),
+    )
+
+
+def _unknown(candidates: Sequence[Candidate]) -> Verdict:
+    return Verdict(
+        kind=VerdictKind.UNKNOWN,
+        effects=(),
+        confusable=(),
+        best=_nearest(candidates),
+        ranking=ranking_of(candidates, None),
+    )
+
+
+def _alike(
+    candidates: Sequence[Candidate], at_floor: Sequence[Candidate], best: Candidate, reached: float
+) -> list[Candidate]:
+    """Those at the floor that the best hardly leads, and a delay or a filter in place of the other."""
     alike = [
         c
         for c in at_floor
         if certain_lead(best, c, reached) <= SIMPLE_LEAD and says_something_else(best, c)
     ]
     late = [c for c in candidates if takes_for_a_filter(best, c) and may_be_it(best, c, reached)]
-    alike += [c for c in late if c not in alike]
+    return alike + [c for c in late if c not in alike]
+
+
+def _refused(
+    candidates: Sequence[Candidate], alike: Sequence[Candidate], best: Candidate, reached: float
+) -> list[Candidate]:
+    """Those that lead the best but do not explain the log, and those that it hardly leads."""
     leading = [
         c
         for c in candidates
@@ -66,19 +93,14 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     refused = [
         c for c in leading if c.refused_for_values or is_part(c, best) or is_richer_but_shifts(c, best)
     ]
-    refused += [c for c in candidates if c not in alike and hardly_led(c, best, reached)]
-    rivals = sorted((*refused, *alike), key=lambda c: less_likely(best, c, reached))
-    kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
+    return refused + [c for c in candidates if c not in alike and hardly_led(c, best, reached)]
+
+
+def _kind(best: Candidate, rivals: Sequence[Candidate], reached: float) -> VerdictKind:
+    """Rivals leave it open, unless all of them are less likely than an effect that is named."""
     if rivals and not (best.named and all(less_likely(best, c, reached) for c in rivals)):
-        kind = VerdictKind.UNDECIDED
-    return Verdict(
-        kind=kind,
-        effects=best.named,
-        confusable=distinct(tuple(c.named) for c in (best, *rivals)) if rivals else (),
-        best=best,
-        rivals=tuple(rivals),
-        ranking=ranking_of((*at_floor, *refused), best),
-    )
+        return VerdictKind.UNDECIDED
+    return VerdictKind.EXPLAINED if best.named else VerdictKind.NONE
 
 
 def _explaining(candidates: Sequence[Candidate]) -> list[Candidate]:
