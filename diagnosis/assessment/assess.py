@@ -24,6 +24,7 @@ from diagnosis.assessment.uncertainty.joint_uncertainty import joint_uncertainty
 from diagnosis.assessment.uncertainty.partitions import by_motion, trial_by_trial
 from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart, values_by_part
 from diagnosis.fitting.held_out.cross_validation import information
+from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.rig_log import RigLog
@@ -90,7 +91,8 @@ def assess(
     spread_of = workers.begin(partial(covariance, problem, near.fit, change, left=_above_noise(near)))
     twist_of = workers.begin(twist_by_effect, problem, near, named, largest_moment(read.before))
     beside = further()
-    with_one_more = gap_with_one_more(verdict.best.fit, beside) if beside else {}
+    fitted_gap = _fitted_gap(problem, verdict.best)
+    with_one_more = gap_with_one_more(fitted_gap, beside) if beside else {}
     spread = tried.or_else(REPLICATES, spread_of, _inverse_information(near))
     if stop.due:
         stop.leave_out(REPLICATES)
@@ -103,6 +105,7 @@ def assess(
     gap = _gap(problem, nominal, after)
     return Assessment(
         gap=gap,
+        fitted_gap=fitted_gap,
         nearest=nearest_of(near, named, own, gap, *by_parts),
         breakdown=where[0],
         breakdown_after=where[1],
@@ -133,6 +136,11 @@ def _gap(problem: FitProblem, nominal: Sequence[Prediction], after: Sequence[Arr
     plain = problem.noise.uncoloured
     before = nominal_residuals(replace(problem, noise=plain), nominal)
     return gap_reduction(before, in_units_of(problem, after, plain))
+
+
+def _fitted_gap(problem: FitProblem, best: Candidate) -> float:
+    """What an explanation leaves on the trials of its fit, in units of the noise as if it were white."""
+    return floor_of(in_units_of(problem, best.fit.by_trial, problem.noise.uncoloured)).gap
 
 
 def _advice(

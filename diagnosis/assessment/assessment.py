@@ -20,6 +20,7 @@ class Assessment:
 
     Attributes:
       gap: before and after, on held-out trials.
+      fitted_gap: of the best explanation of the verdict, on the trials of its fit, in units of `gap`.
       nearest: the best explanation that was tried, whatever the verdict.
       breakdown: breakdown of the residual of the nominal rig.
       breakdown_after: breakdown of the residual of the nearest explanation.
@@ -27,7 +28,7 @@ class Assessment:
       parameters: intervals of parameters, by accepted effect.
       joint: joint uncertainty of the parameters of the nearest explanation.
       sensors: errors of sensors that the nearest explanation allows for.
-      with_one_more: gap that the best fit may reach with one more effect, by effect.
+      with_one_more: what the fitted gap may become with one more effect, by effect.
       detection_limits: largest strength that may go unseen, by effect; empty if the log is not
         explained, or explained by two effects.
       next_experiment: in words; empty if nothing is left to tell apart.
@@ -38,6 +39,7 @@ class Assessment:
     """
 
     gap: GapReduction
+    fitted_gap: float
     nearest: Nearest
     breakdown: ResidualBreakdown
     breakdown_after: ResidualBreakdown

@@ -61,12 +61,12 @@ def further_effects(
     return Further(base=base, screened=_one_more(coarse, base, effects, workers))
 
 
-def gap_with_one_more(best: Fit, further: Further) -> dict[str, float]:
-    """Gap that the best fit may reach with one more effect, by effect, smallest first."""
+def gap_with_one_more(gap: float, further: Further) -> dict[str, float]:
+    """What the gap of the best fit may become with one more effect, by effect, smallest first."""
     base = further.base
     samples = max(base.samples, 1)
     # The floor of the decimated log is not exactly that of the log: ratios carry over.
-    scale = best.gap / np.sqrt(base.cost / samples) if base.cost > 0 else 1.0
+    scale = gap / np.sqrt(base.cost / samples) if base.cost > 0 else 1.0
     left = {s.names[-1]: float(scale * np.sqrt(s.cost / samples)) for s in further.screened}
     return dict(sorted(left.items(), key=lambda item: item[1]))
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria.fitting import GAP_LIMIT
+from diagnosis.fitting.held_out.words import UNSEEN
 
 Array = NDArray[np.float64]
 
@@ -36,10 +37,8 @@ class GapReduction:
         """
         if self.shrink_high >= 0.0 or self.after <= GAP_LIMIT:
             return ""
-        return (
-            "on trials that its fit has not seen it leaves more than the nominal model: "
-            f"{self.after:.3g} instead of {self.before:.3g} σ"
-        )
+        instead = f"{self.after:.3g} instead of {self.before:.3g} σ"
+        return f"{UNSEEN} it leaves more than the nominal model: {instead}"
 
 
 def gap_reduction(before: tuple[Array, ...], after: tuple[Array, ...]) -> GapReduction:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from diagnosis.criteria.assessment import CERTAIN_PROBABILITY
 from diagnosis.effects import LIBRARY
+from diagnosis.fitting.held_out.words import ONLY_TRIAL, UNSEEN
 from diagnosis.freeform.missing.in_words import what_is_missing
 from diagnosis.in_sigma import in_sigma
 from diagnosis.report.sensors import told_of_sensors
@@ -14,9 +15,6 @@ from diagnosis.report.sentences.names import explanation_name, explanations, tit
 from diagnosis.report.sentences.verdict import headline
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
-
-_NOT_HELD_OUT = "on the only trial, which is also the one that was fitted"
-_HELD_OUT = "on trials that the fit has not seen"
 
 
 def answer(found: Diagnosis) -> tuple[str, str, str]:
@@ -97,7 +95,7 @@ def _probability_of(found: Diagnosis, effects: Sequence[str]) -> float:
 
 
 def _share(found: Diagnosis, which: str) -> str:
-    gap, where = found.assessment.gap, _HELD_OUT if len(found.log.trials) > 1 else _NOT_HELD_OUT
+    gap, where = found.assessment.gap, UNSEEN if len(found.log.trials) > 1 else ONLY_TRIAL
     return (
         f"{which} explains {found.assessment.nearest.power_explained_percent:.1f} % of the power of the "
         f"residual beyond noise, {where}: {in_sigma(gap.before)} → {in_sigma(gap.after)}"

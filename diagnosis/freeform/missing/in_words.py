@@ -6,6 +6,7 @@ from diagnosis.criteria.freeform import FAR_GAP
 from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Place
 from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.held_out.words import SEEN, unseen
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.law_curve import Law
 from diagnosis.freeform.likeness.likeness import likeness_of
@@ -24,12 +25,9 @@ DOUBT = (
     "First check what all of these laws assume: lengths, diameter and clocks of the rig, the same zero "
     "in all trials, and that only one thing is missing"
 )
-SEEN = "on the trials of its fit"
-UNSEEN = "on trials that its fit has not seen"
 _HINT = "still far above the noise: take the curve as a hint only"
 _OTHERS = 3
 _LOOSE = 1.05  # times the residual in units of noise and the curve's band, from which that is told too
-_LEAST_TOLD, _MOST_TOLD = 0.05, 0.95  # of the readings: as good as none, or all
 _NEARLY = 0.25  # probability from which another place is told
 _TURN_DEG = 360.0
 _SEEN_AGAIN = 0.9  # of a period, over which a law is known where it is said to repeat
@@ -70,18 +68,7 @@ def where_seen(missing: Missing) -> str:
     """On which trials the gap of the law is."""
     # Of a trial that no other tells of:
     alone = any(f.of_each_trial or f.effect.trial for f in missing.best.families)
-    return _unseen(missing.determined_share) if missing.best.held_out and not alone else SEEN
-
-
-def _unseen(determined_share: float) -> str:
-    """On which trials a gap is, by the share of readings for which other trials tell of the law."""
-    if determined_share <= _LEAST_TOLD:
-        return SEEN
-    if determined_share >= _MOST_TOLD:
-        return UNSEEN
-    return (
-        f"{UNSEEN} (other trials determine the law in {100 * determined_share:.0f} % of their readings)"
-    )
+    return unseen(missing.determined_share) if missing.best.held_out and not alone else SEEN
 
 
 def _with_so_many_more(more: Sequence[Law], beside: str) -> str:

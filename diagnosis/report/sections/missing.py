@@ -20,11 +20,11 @@ _LAW = (
 )
 _PLACES = (
     "The probability of each place follows from the best law that may act there: from the gap that "
-    "it leaves on trials that its fit has not seen and on those that it has, and from its number of "
+    "it leaves on trials that the fit has not seen and on those that it has, and from its number of "
     "free parameters."
 )
 _GAPS = (
-    "For each variable, the law that leaves the smallest gap on trials that its fit has not seen, "
+    "For each variable, the law that leaves the smallest gap on trials that the fit has not seen, "
     "relative to the noise and to the uncertainty of the curve; 1 is the noise floor. Only the first "
     "few laws are fitted to the full log. The others are fitted to the decimated log, and their gap is "
     "that of the fit. Its samples are means, which have less noise: their gaps are larger in σ, and "

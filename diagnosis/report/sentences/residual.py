@@ -2,10 +2,11 @@
 
 from diagnosis.criteria.assessment import ALMOST_NOTHING_SIGMA
 from diagnosis.criteria.residuals import STRETCH_S
-from diagnosis.freeform.missing.in_words import SEEN, where_seen
+from diagnosis.fitting.held_out.words import ONLY_TRIAL, SEEN, UNSEEN
+from diagnosis.freeform.missing.in_words import where_seen
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
-from diagnosis.report.sentences.names import best_in_words
+from diagnosis.report.sentences.names import best_in_words, capital
 from diagnosis.result import Diagnosis
 
 _NO_SHRINK = 5e-3  # of the gap: as good as nothing
@@ -14,12 +15,7 @@ _NO_SHRINK = 5e-3  # of the gap: as good as nothing
 def reduction(found: Diagnosis) -> str:
     """How much of the gap is explained."""
     gap = found.assessment.gap
-    seen = "On held-out trials, which the fit has not seen,"
-    law = found.missing if found.missing and found.missing.law else None
-    if law and where_seen(law) == SEEN:
-        seen = f"{SEEN[0].upper()}{SEEN[1:]},"
-    if len(found.log.trials) == 1:
-        seen = "On the only trial, which is also the one that was fitted,"
+    seen = f"{capital(_on_which_trials(found))},"
     if abs(gap.shrink) < _NO_SHRINK:
         return f"{seen} the residual is {in_sigma(gap.after)}. 1 σ is the noise floor."
     return (
@@ -30,19 +26,23 @@ def reduction(found: Diagnosis) -> str:
     )
 
 
+def _on_which_trials(found: Diagnosis) -> str:
+    if len(found.log.trials) == 1:
+        return ONLY_TRIAL
+    law = found.missing if found.missing and found.missing.law else None
+    return where_seen(law) if law else UNSEEN
+
+
 def with_one_more(found: Diagnosis) -> str:
     """What adding another effect would change; empty where nothing was tried."""
     first = list(found.assessment.with_one_more.items())[:3]
     if not first:
         return ""
-    here = found.verdict.best.fit.gap
+    here = found.assessment.fitted_gap
     named = ", ".join(f"with {name} {in_sigma(gap)}" for name, gap in first)
     little = here - first[0][1] < ALMOST_NOTHING_SIGMA * max(here, 1.0)
     change = "changes almost nothing" if little else "would lower the residual"
-    return (
-        f"Adding another effect {change}: on the trials of the fit the residual is {in_sigma(here)}, "
-        f"{named}."
-    )
+    return f"Adding another effect {change}: {SEEN} the residual is {in_sigma(here)}, {named}."
 
 
 def replay_quality(found: Diagnosis) -> list[str]:

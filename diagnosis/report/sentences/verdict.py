@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from diagnosis.effects import IMPERFECTIONS
+from diagnosis.fitting.held_out.words import UNSEEN
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.report.sensors import told_of_sensors
@@ -86,7 +87,7 @@ def _unknown(found: Diagnosis) -> str:
     least = (
         f"at best {left}, with {named}, which {'explain' if several else 'explains'} {power}"
         if near.effects
-        else f"which nothing that was tried lowers on trials that its fit has not seen {sigma}"
+        else f"which nothing that was tried lowers {UNSEEN} {sigma}"
     )
     nothing = "Unknown: nothing in the library explains the gap, alone or together"
     return f"{nothing}: residual {before}, {least}{_of_all_trials_together(found)}"
@@ -122,13 +123,14 @@ def _what_sigma_is(found: Diagnosis) -> str:
 def _of_all_trials_together(found: Diagnosis) -> str:
     """What fits all trials at once far better than it predicts one from the others; mostly empty."""
     best, near = found.verdict.best, found.assessment.nearest
-    if not best.named or best.fit.gap > _TOGETHER * near.gap_after:
+    fitted = found.assessment.fitted_gap
+    if not best.named or fitted > _TOGETHER * near.gap_after:
         return ""
     leaves = "leave" if len(best.named) > 1 else "leaves"
     closed = found.missing is not None and found.missing.closed  # then one rig explains all trials
     check = ": check whether all were recorded on the same rig, with the same columns"
     return (
-        f". {capital(titles(best.named))} {leaves} {in_sigma(best.fit.gap)} of all trials together, "
+        f". {capital(titles(best.named))} {leaves} {in_sigma(fitted)} of all trials together, "
         f"but predictions from the other trials {in_sigma(near.gap_after)}{'' if closed else check}"
     )
 

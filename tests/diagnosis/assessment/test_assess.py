@@ -11,8 +11,10 @@ from diagnosis.assessment import forward_step, nearest
 from diagnosis.assessment.assess import assess
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import fit_effects, nominal_fit
+from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.log.trial import Trial
 from diagnosis.nominal_replay import at_samples, nominal_residuals, replay_nominal
+from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.verdicts.decision import verdict_on
@@ -94,6 +96,18 @@ def test_of_one_trial_none_is_held_out(log, nominal, fitted):
 def test_held_out_trials_are_not_simulated_again(log, nominal, fitted, monkeypatch):
     monkeypatch.setattr(nearest, "held_out_or_refitted", pytest.fail)
     assert assessed(log, nominal, fitted).gap.after < 1.1
+
+
+def test_the_fitted_gap_is_in_the_units_of_the_gap_whatever_the_colour_of_the_noise(nominal, fitted):
+    """Whitened by neighbours that it resembles, a residual is smaller; in units of sigma it is not."""
+    problem, colour = nominal.problem, NoiseColour.of(share=0.9, correlation_time_s=0.1)
+    coloured = replace(problem, noise=replace(problem.noise, colour={"tip_angle_deg": colour}))
+    swinging = tuple(np.sin(np.arange(r.size) / 20.0) for r in fitted.fit.by_trial)
+    white = candidate(replace(fitted.fit, by_trial=swinging))
+    whitened = candidate(replace(fitted.fit, by_trial=in_units_of(problem, swinging, coloured.noise)))
+    assert whitened.fit.gap < 0.8 * white.fit.gap
+    own = module._fitted_gap(coloured, whitened)
+    assert own == pytest.approx(module._fitted_gap(problem, white), rel=1e-6)
 
 
 def failing(*_):

@@ -43,7 +43,7 @@ def test_what_the_log_has_would_add_most(dry_log):
     coarse, best, base = dry_log
     further = further_effects(coarse, best, EFFECTS, Workers())
     assert further.base.cost == base.cost
-    left = gap_with_one_more(best, further)
+    left = gap_with_one_more(best.gap, further)
     assert list(left) == sorted(left, key=lambda name: left[name])
     assert next(iter(left)) == "coulomb_friction"
     assert left["coulomb_friction"] < 0.5 * best.gap
@@ -57,7 +57,7 @@ def test_what_cannot_be_simulated_adds_nothing(dry_log):
     coarse, best, _ = dry_log
     lost = replace(LIBRARY["tip_drag"], apply=failing)
     coarse = replace(coarse, library={**coarse.library, "tip_drag": lost})
-    found = gap_with_one_more(best, further_effects(coarse, best, EFFECTS, Workers()))
+    found = gap_with_one_more(best.gap, further_effects(coarse, best, EFFECTS, Workers()))
     assert set(found) == set(EFFECTS) - {"tip_drag"}
 
 

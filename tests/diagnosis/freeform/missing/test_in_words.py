@@ -160,10 +160,10 @@ def test_far_above_the_noise_places_have_no_probabilities():
     [
         (
             3.2,
-            "to 3.20 σ on trials that its fit has not seen, "
+            "to 3.20 σ on trials that the fit has not seen, "
             "1.03 times what noise and the band account for",
         ),
-        (1.05, "to 1.05 σ on trials that its fit has not seen;"),
+        (1.05, "to 1.05 σ on trials that the fit has not seen;"),
     ],
 )
 def test_what_the_band_of_a_loose_curve_allows_is_told_beside_the_residual(after, told):
@@ -192,7 +192,7 @@ def test_that_a_law_grows_with_another_variable_is_told():
 def test_of_a_single_trial_nothing_is_called_unseen():
     said = what_is_missing(missing_with(), 8.9)
     assert "not seen" not in said
-    assert "1.03 σ on the trials of its fit" in said
+    assert "1.03 σ on the trials of the fit" in said
 
 
 def test_of_what_happened_once_nothing_is_called_unseen():
@@ -204,10 +204,10 @@ def test_of_what_happened_once_nothing_is_called_unseen():
 
 def test_of_what_has_a_phase_of_its_own_in_each_trial_nothing_is_called_unseen():
     best = seen_fit()
-    assert "other trials determine" not in what_is_missing(missing_with(best=best), 8.9)
+    assert "of the rest" not in what_is_missing(missing_with(best=best), 8.9)
     assert "not seen" in what_is_missing(missing_with(best=best), 8.9)
     told = what_is_missing(missing_with(best=best, determined_share=0.57), 8.9)
-    assert "not seen (other trials determine the law in 57 % of their readings)" in told
+    assert "not seen (57 % of the readings; of the rest" in told
     effect = best.family.effect
     own = tuple(replace(p, of_one_trial=True) for p in effect.parameters)
     waves = replace(best, family=replace(best.family, effect=replace(effect, parameters=own)))
@@ -217,7 +217,7 @@ def test_of_what_has_a_phase_of_its_own_in_each_trial_nothing_is_called_unseen()
 def test_where_no_trial_tells_of_the_law_of_another_nothing_is_called_unseen():
     said = what_is_missing(missing_with(best=seen_fit(), determined_share=0.02), 8.9)
     assert "not seen" not in said
-    assert "on the trials of its fit" in said
+    assert "on the trials of the fit" in said
 
 
 def test_where_no_law_helps_the_sentence_says_what_to_doubt():

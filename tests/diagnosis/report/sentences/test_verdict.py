@@ -167,11 +167,10 @@ def test_an_unknown_log_is_told_with_the_gap_of_the_nearest_not_of_the_law(dry):
 
 @pytest.mark.parametrize(("times", "told"), [(3.0, True), (1.0, False)])
 def test_trials_that_fit_together_and_not_from_each_other_may_differ(dry, times, told):
-    best = dry.found.verdict.best
-    near = replace(dry.found.assessment.nearest, gap_after=times * best.fit.gap)
+    near = replace(dry.found.assessment.nearest, gap_after=times * 2.4)
     found = concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=())
-    found = replace(found, assessment=replace(dry.found.assessment, nearest=near))
-    left, unseen = in_sigma(best.fit.gap), in_sigma(near.gap_after)
+    found = replace(found, assessment=replace(dry.found.assessment, nearest=near, fitted_gap=2.4))
+    left, unseen = in_sigma(2.4), in_sigma(near.gap_after)
     said = f"{left} of all trials together, but predictions from the other trials {unseen}"
     assert (said in headline(found)) is told
     check = ": check whether all were recorded on the same rig"
@@ -194,5 +193,5 @@ def test_an_unknown_log_that_nothing_comes_nearer_to_has_no_best(dry):
     near = replace(dry.found.assessment.nearest, effects=())
     told = replace(dry.found.assessment, nearest=near)
     found = replace(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()), assessment=told)
-    assert "which nothing that was tried lowers on trials that its fit has not seen" in headline(found)
+    assert "which nothing that was tried lowers on trials that the fit has not seen" in headline(found)
     assert "at best" not in headline(found)
