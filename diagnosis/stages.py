@@ -102,7 +102,7 @@ STAGES = {
         "fitting without outliers, with another imperfection", 1.0, 0, 0
     ),
     "drift or offset": _whole("comparing drifts and offsets of a sensor", 1.0, 0, 0),
-    "lost counts": _whole("looking for counts that the encoder has lost", 1.0, 0, 0),
+    "lost counts": _whole("looking for counts that the encoder has lost", 0.02, 0, 40),
     ALIKE: _coarse("looking for equivalent explanations", 0.03, 24, 24),
     CHECKING: _coarse("checking on held-out trials", 0.0, 1, 1),
     "other forms of a law": _whole("comparing with other forms of a law", 1.0, 0, 0),
@@ -110,21 +110,27 @@ STAGES = {
     "adding another effect": _coarse("adding another effect", 0.03, 24, 24),
     "detection limits": _coarse("computing detection limits", 0.12, 20, 20),
     "effects that hide": _whole("fitting effects that may hide", 1.0, 0, 0),
-    "screening free-form laws": _coarse("screening free-form laws", 0.2, 0, 50),
-    "free-form laws": _coarse("fitting free-form laws", 0.3, 0, 10),
+    "screening free-form laws": _coarse("screening free-form laws", 0.04, 0, 220),
+    "free-form laws": _coarse("fitting free-form laws", 0.4, 0, 6),
+    "screening richer free-form laws": _coarse("screening richer free-form laws", 0.03, 0, 20),
+    "richer free-form laws": _coarse("fitting richer free-form laws", 0.2, 0, 6),
+    "screening effects without a law": _coarse("screening effects without a free-form law", 0.02, 0, 28),
     "screening effects beside a free-form law": _coarse(
-        "screening effects beside a free-form law", 0.03, 0, 0
+        "screening effects beside a free-form law", 0.03, 0, 24
     ),
     "free-form laws in pairs and beside an effect": _coarse(
-        "fitting free-form laws in pairs", 0.5, 0, 0
+        "fitting free-form laws in pairs", 0.3, 0, 12
     ),
-    "three free-form laws": _coarse("fitting three free-form laws", 1.0, 0, 0),
+    "three free-form laws": _coarse("fitting three free-form laws", 1.5, 0, 4),
     "finalists, free-form laws": _whole("fitting the best free-form laws to the whole log", 1.5, 0, 4),
-    "plain laws": _whole("fitting plain laws like the free-form ones", 1.0, 0, 2),
+    "plain laws": _whole("fitting plain laws like the free-form ones", 1.2, 0, 4),
 }
 """Times and numbers of tasks are rounded from six logs: one without any effect, two with one, one with
 three, two that nothing explains. Only the estimate of the time that is left depends on them."""
 _OF_NO_KNOWN = Usual(words="")
+
+
+_SCREENING = "screening "  # and the name of a stage: before its fits
 
 
 def usual(stage: str) -> Usual:
@@ -134,4 +140,9 @@ def usual(stage: str) -> Usual:
 
 def in_words(stage: str) -> str:
     """A stage as people say what is done in it."""
-    return usual(stage).words or stage
+    if words := usual(stage).words:
+        return words
+    of = usual(stage.removeprefix(_SCREENING)).words.removeprefix("fitting ")
+    if not of:
+        return stage
+    return f"{_SCREENING}{'effects ' if of.startswith('with') else ''}{of}"

@@ -26,6 +26,8 @@ from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
 from scripts.tables import print_table
 
+_SHOWN = 5  # explanations, with their probabilities
+
 
 def summary(found: Diagnosis, console: Console) -> None:
     """Print all of it. Warnings of the log were told while it was read."""
@@ -41,10 +43,13 @@ def summary(found: Diagnosis, console: Console) -> None:
         if warning not in found.log.warnings:
             console.print(f"warning: {warning}", highlight=False)
     print_table(console, _breakdown_table(found))
+    print_table(console, _band_table(found))
     for sentence in (largest_parts(found), largest_residual(found)):
         console.print(sentence, highlight=False)
     if found.verdict.effects:
-        print_table(console, _parameter_table(as_json(found)["parameters"], "What explains it"), keys=2)
+        print_table(
+            console, _parameter_table(as_json(found)["parameters"], _what_explains(found)), keys=2
+        )
     elif found.assessment.nearest.effects:
         parameters = as_json(found)["nearest"]["parameters"]
         print_table(console, _parameter_table(parameters, "What comes nearest"), keys=2)
@@ -57,7 +62,12 @@ def summary(found: Diagnosis, console: Console) -> None:
     if told.detection_limits and not found.verdict.effects:
         print_table(console, _limits_table(found))
     for sentence in unidentifiable(found.log):
-        console.print(f"open: {sentence}", highlight=False)
+        console.print(f"not shown: {sentence}", highlight=False)
+
+
+def _what_explains(found: Diagnosis) -> str:
+    undecided = found.verdict.kind is VerdictKind.UNDECIDED
+    return "The first of these explanations" if undecided else "What explains it"
 
 
 def _breakdown_table(found: Diagnosis) -> Table:
@@ -73,17 +83,25 @@ def _breakdown_table(found: Diagnosis) -> Table:
 def _by_part(parts: ResidualBreakdown) -> Iterator[tuple[str, float]]:
     yield from parts.signal.items()
     yield from parts.phase.items()
-    for low, high, value in parts.band_hz:
-        yield band_name(low, high), value
     for depth, value in parts.depth_mm:
         yield f"{depth:g} mm deep", value
+
+
+def _band_table(found: Diagnosis) -> Table:
+    """Of a band, 1 is what white noise has in it: a slow residual comes to far more than over all."""
+    title = "By frequency / that of white noise"
+    table = Table("band", "nominal", label_of(found, "explained"), title=title)
+    before, after = found.assessment.breakdown.band_hz, found.assessment.breakdown_after.band_hz
+    for (low, high, gap), (*_, left) in zip(before, after, strict=True):
+        table.add_row(band_name(low, high), over_sigma(gap), over_sigma(left))
+    return table
 
 
 def _parameter_table(parameters: Mapping[str, Any], title: str) -> Table:
     table = Table("effect", "parameter", "value", "95 % interval", "unit", title=title)
     for effect, values in parameters.items():
         for name, value, low, high, unit in interval_rows(values):
-            table.add_row(effect, name, value, f"{low} .. {high}", unit)
+            table.add_row(effect, name, value, f"{low} to {high}", unit)
     return table
 
 
@@ -95,7 +113,10 @@ def _limits_table(found: Diagnosis) -> Table:
 
 
 def _ranking_table(found: Diagnosis) -> Table:
-    table = Table("explanation", "probability", title="Ranking")
-    for name, probability in explanations(found)[:5]:
+    table = Table("explanation", "probability", title="Probability of each explanation")
+    every = explanations(found)
+    for name, probability in every[:_SHOWN]:
         table.add_row(name, f"{probability:.3f}")
+    if rest := every[_SHOWN:]:
+        table.add_row(f"{len(rest)} more", f"{sum(p for _, p in rest):.3f}")
     return table

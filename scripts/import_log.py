@@ -51,7 +51,7 @@ def _draft(files: Sequence[LabFile], out: Path | None, *, force: bool, console: 
         written.optional(paths[1], partial(write_preview, draft))
     print_table(console, table(draft), keys=2)
     for item in draft.open:
-        console.print(f"open: {item}", highlight=False)
+        console.print(f"to fill in: {item}", highlight=False)
     for line in loop_lines(draft):
         console.print(f"loops: {line}", highlight=False)
     code = tell(written, console)

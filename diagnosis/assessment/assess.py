@@ -126,7 +126,7 @@ def assess(
             *lost,
             *tried.warnings,
             *moved_by_hidden(limits, accepted),
-            *_bound_warnings(near.told_at_bound),
+            *_bound_warnings(near.told_at_bound, verdict.kind),
         ),
     )
 
@@ -177,11 +177,12 @@ def _by_parts(
     return stop.unless_due(BY_PART, lambda: values_by_part(problem, near.fit, *parts)) or ()
 
 
-def _bound_warnings(at_bound: Sequence[str]) -> tuple[str, ...]:
+def _bound_warnings(at_bound: Sequence[str], kind: VerdictKind) -> tuple[str, ...]:
     """A warning for every parameter that the fit would move beyond its bound."""
+    whose = "what comes nearest, which is no explanation: " if kind is VerdictKind.UNKNOWN else ""
     return tuple(
-        f"{parameter} stopped at a bound of its range: the data call for a value beyond it, so its "
-        "value and interval mean little"
+        f"{whose}{parameter} stopped at a bound of its range: the data call for a value beyond it, so "
+        "its value and interval mean little"
         for parameter in at_bound
     )
 

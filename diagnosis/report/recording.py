@@ -16,6 +16,7 @@ from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.prediction import Prediction
 from diagnosis.report.needle_view import log_needle, needle_bounds
+from diagnosis.report.sentences.names import label_of
 from diagnosis.residuals.between_readings import between_readings
 from diagnosis.result import Diagnosis
 from sim.recording.rerun_file import recorded
@@ -40,21 +41,25 @@ def log_gap(diagnosis: Diagnosis, sentence: str, path: Path) -> None:
         for i, (trial, nominal, explained) in enumerate(each):
             predictions = {"nominal": nominal, "explained": explained}
             root = f"trial_{i + 1}"
-            _log_signals(stream, root, trial, predictions)
+            _log_signals(stream, root, diagnosis, trial, predictions)
             left_over = _residuals(trial, predictions, diagnosis.noise)
             for (name, sensor), left in left_over.items():
                 entity = f"{root}/residual/{sensor}/{name}"
-                log_series(stream, entity, name, trial["time_s"], left, _COLOURS[name])
+                label = label_of(diagnosis, name)
+                log_series(stream, entity, label, trial["time_s"], left, _COLOURS[name])
             log_needle(stream, f"{root}/needle", trial, left_over)
 
 
-def _log_signals(stream: Any, root: str, trial: Trial, predictions: Mapping[str, Prediction]) -> None:
+def _log_signals(
+    stream: Any, root: str, diagnosis: Diagnosis, trial: Trial, predictions: Mapping[str, Prediction]
+) -> None:
     for sensor in SENSORS:
         shown = {name: prediction[sensor] for name, prediction in predictions.items()}
         if trial.has(sensor):
             shown = {"measured": between_readings(trial["time_s"], trial[sensor])} | shown
         for name, values in shown.items():
-            log_series(stream, f"{root}/{sensor}/{name}", name, trial["time_s"], values, _COLOURS[name])
+            entity, label = f"{root}/{sensor}/{name}", label_of(diagnosis, name)
+            log_series(stream, entity, label, trial["time_s"], values, _COLOURS[name])
 
 
 def _residuals(

@@ -5,6 +5,9 @@ import re
 from dataclasses import fields
 from pathlib import Path
 
+import pytest
+from free_forms import missing_with
+
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.fitting.fit_status import Termination
@@ -55,3 +58,17 @@ def test_the_first_column_of_the_tables_has_no_key_that_the_report_lacks():
     listed = {name for cell in first for name in re.findall(r"`([a-z_]+)`", cell)}
     assert listed - keys_of_the_report() == set()
     assert len(listed) > 30
+
+
+@pytest.mark.parametrize(
+    ("heading", "keys"),
+    [
+        ("`missing` is there only", json_report._missing(missing_with()).keys()),
+        ("`missing.depends_on`", json_report._missing(missing_with())["depends_on"][0].keys()),
+        ("`missing.law`", json_report._missing(missing_with())["law"].keys()),
+    ],
+)
+def test_a_table_of_what_is_missing_has_the_keys_of_its_own_object(heading, keys):
+    table = re.search(r"^\| key.*?(?=\n\n)", PAGE[PAGE.index(heading) :], re.MULTILINE | re.DOTALL)[0]
+    first = re.findall(r"^\| (`[^|]+) \|", table, flags=re.MULTILINE)
+    assert {name for cell in first for name in re.findall(r"`([a-z_]+)`", cell)} == {*keys}

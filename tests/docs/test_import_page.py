@@ -86,7 +86,7 @@ def test_the_draft_is_as_the_page_shows_it(draft):
     shown = PAGE.split("```yaml\n")[1].split("```")[0]
     assert shown in mapping_text(draft)
     for item in draft.open:
-        assert f"open: {item}" in PAGE
+        assert f"to fill in: {item}" in PAGE
     for line in loop_lines(draft):
         assert f"loops: {line}" in PAGE
 

@@ -101,7 +101,7 @@ def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
         return _check(verdict.confusable)
     one, other = verdict.best, verdict.rivals[0]
     found = best_experiment(problem, one.fit, other.fit, experiments(problem.log))
-    names = [" with ".join(c.named) or "the nominal rig" for c in (one, other)]
+    names = [" with ".join(c.named) or "the nominal model" for c in (one, other)]
     apart = f"{names[0]} and {names[1]} would lie {found.separation:.1f} standard deviations apart"
     runs = (DECISIVE_SIGMA / max(found.separation, 1e-3)) ** 2
     if found.separation >= DECISIVE_SIGMA:
@@ -110,9 +110,9 @@ def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
         times = "once" if runs < _ONCE else f"about {runs:.0f} times"
         return f"{found.experiment.words}, {times}: in each run {apart}"
     return _only_sliding(problem, one.fit, other.fit, names) or (
-        f"no run that this rig can do would tell {names[0]} from {names[1]}: in the best, "
-        f"{found.experiment.words}, they would lie {found.separation:.2f} standard deviations apart; "
-        f"measure separately: {check_that_tells([one.named, other.named])}"
+        f"{check_that_tells([one.named, other.named])}: no run that this rig can do would tell "
+        f"{names[0]} from {names[1]} (in the best, {found.experiment.words}, they would lie "
+        f"{found.separation:.2f} standard deviations apart)"
     )
 
 
@@ -136,5 +136,5 @@ def _look_closer(problem: FitProblem, nominal: ResidualBreakdown, left: Residual
         "no effect of the library explains the residual. "
         f"That of the nominal model is {nominal.largest}; "
         f"that of the nearest explanation is {left.largest}: "
-        f"repeat that phase alone, {varied}, to see what it depends on"
+        f"repeat the phase in which the latter is largest alone, {varied}, to see what it depends on"
     )

@@ -61,7 +61,8 @@ def what_is_missing(missing: Missing, gap_before: float, gap_after: float | None
     each = zip(missing.beside, more, strict=True)
     others = "".join(f" {_more_of(law, course, i)}" for i, (law, course) in enumerate(each))
     reduces = "Together they reduce" if others else f"A free-form law of this kind{beside} reduces"
-    return f"{depends}{others} {reduces} {falls}{_beside(missing)}.{_likeness(law)}"
+    like = _likeness(law, alone=not missing.beside)
+    return f"{depends}{others} {reduces} {falls}{_beside(missing)}.{like}"
 
 
 def where_seen(missing: Missing) -> str:
@@ -131,15 +132,21 @@ def _more_of(law: Law, course: str, before: int) -> str:
     return f"{which} law is needed as well, {PLACES[law.place]}; it depends on {of}: {course}."
 
 
-def _likeness(law: Law) -> str:
-    """The plain law that the curve resembles; empty: none."""
+def _likeness(law: Law, *, alone: bool) -> str:
+    """The plain law that the curve resembles; empty: none.
+
+    Args:
+      alone: whether no other law is told beside it.
+    """
     like = likeness_of(law)
     if like is None or like.shape == LEVEL:  # that a band hides everything is no law
         return ""
-    library = f", a law of {' and '.join(like.library)} in the library" if like.library else ""
+    library = f", as {' and '.join(like.library)} in the library" if like.library else ""
+    library += "; what the library lacks is what acts beside it" if like.library and not alone else ""
     article = "an" if like.shape[0] in "aeiou" else "a"
     how = "is fitted as" if law.shape else "looks like"
-    return f" The law {how} {article} {like.shape}{library}: {like.says}."
+    which = "The law" if alone else "The first law"
+    return f" {which} {how} {article} {like.shape}{library}: {like.says}."
 
 
 def next_step(missing: Missing) -> str:

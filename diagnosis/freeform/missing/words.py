@@ -29,7 +29,8 @@ _CHECKS = {
     "again, what was done to the rig stays",
     "base_angle": "turn slowly through whole turns with the needle out of the tissue: what comes from "
     "the drive remains",
-    "tip_angle": "turn the tip in known steps, by hand or against a second sensor, and compare",
+    "tip_angle": "turn slowly through two whole turns at one depth, forwards and backwards: what "
+    "depends on the angle of the tip comes again after each turn",
     "rate": "turn at four steady rates, a few turns each, at one depth",
     "direction": "turn at one steady rate, a few turns forwards, then as many backwards",
     "axial_speed": "slide the needle in and out at three speeds without turning it",
@@ -39,6 +40,7 @@ _CHECKS = {
     "history": "repeat one turn after rests of different length, and after different numbers of turns",
 }
 _OF_SENSOR = {
+    "tip_angle": "turn the tip in known steps, by hand or against a second sensor, and compare",
     "time": "read the sensor at rest, without a load, before and after each trial",
     "history": "read the sensor at rest, without a load, before and after each trial, and after turns "
     "both ways",

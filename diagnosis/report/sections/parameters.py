@@ -18,13 +18,16 @@ from diagnosis.report.sentences.nearest import (
 )
 from diagnosis.report.tables import parameter_table, part_table
 from diagnosis.result import Diagnosis
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
-_INTERVALS = (
+_RIGHT = (
     "If the explanation and the constants of rig.yaml are right, each interval contains the true "
-    "value in 95 of 100 logs. The ellipses show this for two parameters at once: if an ellipse is "
-    "tilted, a larger value of one parameter goes with a larger value of the other, or with a "
-    "smaller one. Stiffness and damping of the rig are left open in every fit, as a share of their "
-    "nominal values."
+    "value in 95 of 100 logs."
+)
+_JOINTLY = (
+    "The ellipses show two parameters at once: if an ellipse is tilted, a larger value of one "
+    "parameter goes with a larger value of the other, or with a smaller one. Stiffness and damping of "
+    "the rig are left open in every fit, as a share of their nominal values."
 )
 
 _BY_TRIAL = (
@@ -93,6 +96,7 @@ def _by_part(
 
 
 def _values(found: Diagnosis, parameters: Mapping[str, Any]) -> list[str]:
+    """A table, and ellipses of two at once; of what explains nothing no interval holds a truth."""
     joint = found.assessment.joint
     if not parameters:
         return []
@@ -102,6 +106,8 @@ def _values(found: Diagnosis, parameters: Mapping[str, Any]) -> list[str]:
     return [
         *parts,
         html.heading("Joint uncertainty", level=3),
-        html.paragraph(_INTERVALS),
+        html.paragraph(
+            _JOINTLY if found.verdict.kind is VerdictKind.UNKNOWN else f"{_RIGHT} {_JOINTLY}"
+        ),
         drawn(draw_joint, describe_joint, joint),
     ]

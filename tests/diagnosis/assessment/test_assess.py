@@ -81,9 +81,14 @@ def test_predictions_are_at_the_samples_of_the_log(log, nominal, fitted):
 
 
 def test_a_parameter_at_its_bound_earns_a_warning_that_names_it():
-    (said,) = module._bound_warnings(("coulomb_friction.level",))
+    (said,) = module._bound_warnings(("coulomb_friction.level",), VerdictKind.EXPLAINED)
     assert said.startswith("coulomb_friction.level stopped at a bound")
-    assert module._bound_warnings(()) == ()
+    assert module._bound_warnings((), VerdictKind.EXPLAINED) == ()
+
+
+def test_a_bound_of_what_explains_nothing_is_told_as_that_of_what_comes_nearest():
+    (said,) = module._bound_warnings(("stiction.kinetic",), VerdictKind.UNKNOWN)
+    assert said.startswith("what comes nearest, which is no explanation: stiction.kinetic stopped")
 
 
 def test_of_one_trial_none_is_held_out(log, nominal, fitted):

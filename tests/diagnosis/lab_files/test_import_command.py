@@ -40,7 +40,7 @@ def test_from_a_file_to_a_log_by_way_of_an_edited_draft(tmp_path, capsys):
     assert main(["import", source, "--out", str(out)]) == 0
     said = capsys.readouterr().out
     assert sorted(p.name for p in out.iterdir()) == ["mapping.yaml", "preview.png"]
-    assert "open: speed_mm_s" in said
+    assert "to fill in: speed_mm_s" in said
     assert "base_torque_noise_n_mm" in said
     mapping = out / "mapping.yaml"
     log = tmp_path / "log"
@@ -77,7 +77,7 @@ def test_guesses_are_accepted_only_on_request(tmp_path, capsys):
 def test_three_columns_that_cannot_be_mapped_are_named_in_one_run(tmp_path, capsys):
     table = LAB.rename(columns={"motor angle [rad]": "disp (in)", "torque (N m)": "force (kip)"})
     assert main(["import", str(write_csv(tmp_path, table)), "--out", str(tmp_path / "out")]) == 0
-    said = [line for line in capsys.readouterr().out.splitlines() if line.startswith("open:")]
+    said = [line for line in capsys.readouterr().out.splitlines() if line.startswith("to fill in:")]
     for name in ("disp (in)", "force (kip)", "speed_mm_s"):
         assert any(name in line for line in said), name
 

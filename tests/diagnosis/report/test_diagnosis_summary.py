@@ -31,17 +31,22 @@ def drifting(found):
 def test_an_explanation_is_told_with_residual_parameters_and_ranking(dry):
     said = printed(dry.found)
     assert said.startswith("Dry (Coulomb) friction along the shaft explains the gap")
-    for title in ("Residual / σ, fitted to all trials", "What explains it", "Ranking"):
+    for title in (
+        "Residual / σ, fitted to all trials",
+        "By frequency / that of white noise",
+        "What explains it",
+        "Probability of each explanation",
+    ):
         assert said.count(title) == 1
     assert "Detection limits" not in said
-    assert "open: Not testable: load_dependent_friction" in said
+    assert "not shown: Not testable: load_dependent_friction" in said
 
 
 def test_an_unknown_log_is_told_with_what_comes_nearest_and_no_ranking(dry):
     said = printed(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()))
     assert "What comes nearest" in said
     assert "This is not an explanation" in said
-    assert "Ranking" not in said
+    assert "Probability of each explanation" not in said
 
 
 @pytest.mark.parametrize(

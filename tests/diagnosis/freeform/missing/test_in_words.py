@@ -240,6 +240,21 @@ def test_a_plain_law_is_told_as_what_was_fitted(shape, said):
     assert said in what_is_missing(missing_with(replace(LAW, **line, **band, shape=shape)), 8.9)
 
 
+def test_beside_another_law_one_of_the_library_is_not_what_it_lacks():
+    """A reading of the tip that is off along a line is a gain and an offset of its sensor."""
+    x = tuple(np.linspace(0.0, 90.0, 24))
+    y, low, high = (tuple(0.05 * np.array(x) + 2.0 + band) for band in (0.0, -0.01, 0.01))
+    line = replace(LAW, place=Place.SENSOR, variable="tip_angle", unit="deg", x_unit="deg", x=x)
+    line = replace(line, y=y, low=low, high=high)
+    alone = what_is_missing(missing_with(line), 8.9)
+    other = replace(LAW, variable="time", title="friction")
+    best = replace(seen_fit(), others=(free_fit(1.0, name="other").family,))
+    both = what_is_missing(missing_with(line, beside=(other,), best=best), 8.9)
+    known = "law looks like a straight line, as tip_angle_scale and tip_angle_bias in the library"
+    assert f"The {known}: " in alone
+    assert f"The first {known}; what the library lacks is what acts beside it: " in both
+
+
 def test_a_name_that_begins_with_a_vowel_has_its_article():
     x = np.arange(9.0)
     y = 1.0 + np.exp(-x / 2.0)
