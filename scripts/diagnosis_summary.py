@@ -19,7 +19,7 @@ from diagnosis.report.sentences.nearest import (
     differing_motions,
     differing_trials,
 )
-from diagnosis.report.sentences.residual import largest_parts, largest_residual
+from diagnosis.report.sentences.residual import in_one_trial, largest_parts, largest_residual
 from diagnosis.report.tables import interval_rows, limit_in_words
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, band_name
 from diagnosis.result import Diagnosis
@@ -44,8 +44,9 @@ def summary(found: Diagnosis, console: Console) -> None:
             console.print(f"warning: {warning}", highlight=False)
     print_table(console, _breakdown_table(found))
     print_table(console, _band_table(found))
-    for sentence in (largest_parts(found), largest_residual(found)):
-        console.print(sentence, highlight=False)
+    for sentence in (largest_parts(found), largest_residual(found), in_one_trial(found)):
+        if sentence:
+            console.print(sentence, highlight=False)
     if found.verdict.effects:
         print_table(
             console, _parameter_table(as_json(found)["parameters"], _what_explains(found)), keys=2

@@ -23,3 +23,6 @@ LONGEST_LEAD_S = 2.0
 LEAD_SIGMA = 4.0
 """Derived: the highest of 400 independent correlations of unrelated residuals exceeds four of their
 standard deviations in 2.5 of 100 logs; those of slow residuals are fewer."""
+ONE_TRIAL_GAP, OTHER_TRIALS_GAP = 1.3, 1.1
+"""Gaps of the nominal rig above which one trial is off, and up to which all others are at the noise. A
+choice of what is told: 500 samples are within 1.1 in 999 of 1000 trials."""

@@ -46,6 +46,11 @@ class Law:
     shape: str = ""
     multiplies: bool = False
 
+    @property
+    def of_a_clock(self) -> bool:
+        """Whether what is off is a time."""
+        return self.unit == "s"
+
 
 def laws_of_fit(one: FreeFit) -> list[Law]:
     """The curves of all laws of a fit: each law, then the factor that it may have."""

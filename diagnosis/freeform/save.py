@@ -28,12 +28,12 @@ def file_of(name: str) -> Path:
 def can_be_saved(missing: Missing | None) -> bool:
     """Whether a library could have the law.
 
-    Such a law closes the gap, and is not about a single event, nor about trials of this log alone; nor
-    are those beside it.
+    Such a law closes the gap, and is not about a single event, a clock, nor about trials of this log
+    alone; nor are those beside it.
     """
     if missing is None or missing.law is None or not missing.closed:
         return False
-    if any(law.variable == "event" for law in (missing.law, *missing.beside)):
+    if any(law.variable == "event" or law.of_a_clock for law in (missing.law, *missing.beside)):
         return False
     free = _fitted(missing).free
     return free is not None and not any(c.trial for c in free.curves)

@@ -153,7 +153,8 @@ def next_step(missing: Missing) -> str:
     """What to do next, as an instruction; empty: there is no law to check."""
     if missing.law is None:
         return ""
-    check = check_of(missing.law.place, missing.law.variable)
+    law = missing.law
+    check = check_of(law.place, law.variable, of_a_clock=law.of_a_clock)
     if not missing.closed:
         return f"{check}; the law leaves more than noise, so examine the remaining residual next"
     if not can_be_saved(missing):

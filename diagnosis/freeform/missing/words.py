@@ -49,8 +49,17 @@ _WHILE_TURNING = "turn at one steady rate while sliding the needle in and out at
 """Of the axial speed, for what acts about the axis: without turning, sensors alone show it."""
 
 
-def check_of(place: Place, variable: str) -> str:
-    """What shows a law of a variable by itself, as an order."""
+_CLOCKS = "compare the clocks and sampling rates of all instruments, over minutes"
+
+
+def check_of(place: Place, variable: str, *, of_a_clock: bool = False) -> str:
+    """What shows a law of a variable by itself, as an order.
+
+    Args:
+      of_a_clock: whether what is off is a time.
+    """
+    if of_a_clock:
+        return _CLOCKS
     if place is Place.SENSOR:
         return _OF_SENSOR.get(variable, _CHECKS[variable])
     return _WHILE_TURNING if variable == "axial_speed" else _CHECKS[variable]

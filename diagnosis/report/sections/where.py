@@ -6,7 +6,12 @@ from diagnosis.report.figures.along_motion import describe_along_motion, draw_al
 from diagnosis.report.figures.breakdown import describe_breakdown, draw_breakdown
 from diagnosis.report.figures.memory import describe_memory, draw_memory
 from diagnosis.report.sentences.names import best_in_words
-from diagnosis.report.sentences.residual import largest_parts, largest_residual, leading
+from diagnosis.report.sentences.residual import (
+    in_one_trial,
+    largest_parts,
+    largest_residual,
+    leading,
+)
 from diagnosis.result import Diagnosis
 
 _BREAKDOWN = (
@@ -41,6 +46,7 @@ def where_section(found: Diagnosis) -> list[str]:
         drawn(draw_breakdown, describe_breakdown, found),
         html.paragraph(f"{largest_parts(found)}."),
         html.paragraph(f"{largest_residual(found)}."),
+        *([html.paragraph(f"{alone}.")] if (alone := in_one_trial(found)) else []),
         html.heading("Along the motion", level=3),
         html.paragraph(_ALONG),
         drawn(draw_along_motion, describe_along_motion, found),

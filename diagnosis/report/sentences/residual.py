@@ -1,7 +1,10 @@
 """What is left of a log, and where."""
 
+import math
+import statistics
+
 from diagnosis.criteria.assessment import ALMOST_NOTHING_SIGMA
-from diagnosis.criteria.residuals import STRETCH_S
+from diagnosis.criteria.residuals import ONE_TRIAL_GAP, OTHER_TRIALS_GAP, STRETCH_S
 from diagnosis.fitting.held_out.words import ONLY_TRIAL, SEEN, UNSEEN
 from diagnosis.freeform.missing.in_words import where_seen
 from diagnosis.in_sigma import in_sigma
@@ -71,6 +74,21 @@ def largest_parts(found: Diagnosis) -> str:
     before, after = (b.largest for b in (found.assessment.breakdown, found.assessment.breakdown_after))
     nominal = f"Residual of the nominal model: {before}"
     return nominal if after == before else f"{nominal}; of {best_in_words(found)}: {after}"
+
+
+def in_one_trial(found: Diagnosis) -> str:
+    """That all of the gap lies in one of several trials; empty: it does not."""
+    each: dict[str, list[float]] = {}
+    for name, *_, gap in found.assessment.breakdown.time_s:
+        each.setdefault(name, []).append(gap**2)
+    gaps = {name: math.sqrt(statistics.fmean(squares)) for name, squares in each.items()}
+    off = [name for name, gap in gaps.items() if gap > ONE_TRIAL_GAP]
+    if len(gaps) == 1 or len(off) != 1 or any(gaps[n] > OTHER_TRIALS_GAP for n in gaps if n not in off):
+        return ""
+    return (
+        f"All of the gap lies in {off[0]} ({in_sigma(gaps[off[0]])}; others are at the noise). "
+        "First check what that trial has of its own: its file, lengths, what was done to the rig"
+    )
 
 
 def leading(found: Diagnosis) -> str:

@@ -9,6 +9,7 @@ allowed for only if the log is explained so, and not as well by a chuck that sli
 base that lost counts, which move the needle against its reading. That shows for a moment in the torque,
 so that a trial has to have both, tip and torque.
 
+Only one sensor may jump: where both do, something has happened to the needle, which no library knows.
 A recording may have more than jumps: a drift of the torque is asked for beside the largest one, and
 beside all that were found.
 
@@ -73,12 +74,13 @@ def jumps_and_more(others: Sequence[Stage]) -> Stage:
         state, explained = state.rechecked()
         if explained:
             return state
-        jumping = state
+        jumping, sensors = state, [*SENSORS]
         for made in range(MOST_JUMPS):
             share = max(JUMP_SHARE, JUMPS_SHARE / (MOST_JUMPS - made))
-            jump = _largest_jump(jumping, share)
+            jump = _largest_jump(jumping, share, sensors)
             if jump is None:
                 break
+            sensors = [jump.sensor]
             jumping = _refitted(state, jumping, jump, workers)
             found = _explained(jumping, others, workers)
             if found and (why_not := _objection(found, jump, workers)):
@@ -125,13 +127,14 @@ def _may_be_a_slip(state: SearchState, jump: ReadingJump, workers: Workers) -> b
     return any(c.fit.cost - best.fit.cost <= SIMPLE_LEAD for c in found)
 
 
-def _largest_jump(state: SearchState, share: float) -> ReadingJump | None:
+def _largest_jump(state: SearchState, share: float, sensors: Sequence[str]) -> ReadingJump | None:
     """The jump that leaves least of one of the leading explanations.
 
     Args:
       share: of what that leaves beyond noise, which it has to take off; None if none does.
+      sensors: that may jump.
     """
-    places = list(_places(state.problem))
+    places = [place for place in _places(state.problem) if place.sensor in sensors]
     rows = [place.rows for place in places]
     least, found = np.inf, None
     for one in leading_on_the_log(state):

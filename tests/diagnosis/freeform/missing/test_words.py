@@ -29,3 +29,8 @@ def test_every_family_says_a_variable_of_the_vocabulary():
     # Every place but the constants of the rig, which no law is free of, has a family of its own.
     assert {family.place for family in families} == set(Place)
     assert len({family.name for family in families}) == len(families)
+
+
+def test_what_is_off_by_a_time_is_a_clock_whatever_the_place():
+    assert "clocks" in check_of(Place.SENSOR, "time", of_a_clock=True)
+    assert "clocks" not in check_of(Place.SENSOR, "time")

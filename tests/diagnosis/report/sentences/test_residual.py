@@ -10,6 +10,7 @@ from diagnosis.assessment.advice.advice import advise
 from diagnosis.in_sigma import in_sigma
 from diagnosis.prepare.prepare import prepare
 from diagnosis.report.sentences.residual import (
+    in_one_trial,
     largest_parts,
     largest_residual,
     leading,
@@ -113,3 +114,25 @@ def test_which_signal_leads_is_said_or_why_it_cannot_be(dry, lead, said):
     sentence = leading(replace(dry.found, assessment=replace(dry.found.assessment, shape=shape)))
     assert said in sentence
     assert ("not clear" in sentence) == (lead is None or not lead.signal)
+
+
+@pytest.mark.parametrize(
+    ("gaps", "told"),
+    [
+        ((3.9, 1.0, 1.02), True),
+        ((3.9, 1.0, 1.2), False),
+        ((1.2, 1.0, 1.0), False),
+        ((3.9, 2.0, 1.0), False),
+        ((3.9,), False),
+    ],
+)
+def test_a_gap_that_lies_in_one_of_several_trials_is_told_as_such(dry, gaps, told):
+    """Each trial has a stretch at the noise as well, but for the one that is off."""
+    stretches = [(f"trial_{i + 1:02d}.csv", 0.0, 5.0, gap) for i, gap in enumerate(gaps)]
+    where = replace(dry.found.assessment.breakdown, time_s=stretches)
+    found = replace(dry.found, assessment=replace(dry.found.assessment, breakdown=where))
+    said = in_one_trial(found)
+    assert bool(said) is told
+    assert not told or said.startswith(
+        "All of the gap lies in trial_01.csv (3.90 σ; others are at the noise)"
+    )

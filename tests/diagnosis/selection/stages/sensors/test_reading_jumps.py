@@ -107,6 +107,14 @@ def test_two_jumps_are_found_one_after_the_other():
     assert len(after.best.fit.parameterization.rig(after.best.fit.x).jumps) == 2
 
 
+def test_of_both_sensors_no_jumps_are_allowed_for():
+    """A tip and a torque that jump at once are the needle's doing, not that of two sensors."""
+    tip = off(two(DRY), TIP, (2.0, 8.0))
+    before, after = searched(off(tip, TORQUE, (6.0, 2.0)))
+    assert after.problem is before.problem
+    assert decisions(after)[-1] is Decision.DROPPED
+
+
 def test_a_jump_alone_is_what_is_missing():
     before, after = searched(off(two(NOMINAL), TIP, (5.0, 8.0)), effects=())
     assert after.problem is before.problem
