@@ -89,8 +89,13 @@ class Candidate:
 
     @property
     def objection(self) -> str:
-        """Why it does not explain the log, in words; empty: it does."""
+        """Why it does not explain the log first of all, in words; empty: it does."""
         return next(self._objections(), "")
+
+    @property
+    def objections(self) -> str:
+        """All that speaks against it, in words; empty: nothing does."""
+        return "; ".join(self._objections())
 
     @property
     def refused_for_values(self) -> bool:
@@ -117,14 +122,15 @@ class Candidate:
             yield f"held-out trials cannot be simulated: {self.held_out_failure or 'not tried'}"
         for sensor, own in self.coloured.items():
             if own.slow > own.slow_limit:
-                seen = f"{own.slow:.2f} times what its noise makes them, limit {own.slow_limit:.2f}"
-                yield f"means of {sensor} over seconds are {seen}"
+                seen = f"{own.slow:.2f} times what its noise makes it, limit {own.slow_limit:.2f}"
+                yield f"{sensor}, averaged over seconds, is off by {seen}"
         for sensor, hertz in self.swinging_hz.items():
             yield f"{sensor} swings at {hertz:.2g} Hz, as no noise does"
         if self.held_out_floor and self.held_out_floor.gap > HELD_OUT_GAP:
             yield f"held-out trials are {self.held_out_floor.gap:.3g} σ off, limit {HELD_OUT_GAP:.3g} σ"
         if self.shift > self.shift_limit:
-            yield f"held-out trials shift by {self.shift:.1f}, limit {self.shift_limit:.3g}"
+            times = f"{self.shift:.1f} times what the uncertainty of the parameters makes it"
+            yield f"predictions of held-out trials shift by {times}, limit {self.shift_limit:.3g}"
         if self.unidentifiable:
             yield "stiffness or damping is off, but it is open which"
 

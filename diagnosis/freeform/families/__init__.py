@@ -1,4 +1,4 @@
-"""Families of free-form laws: one file per place, found in this folder and those in it."""
+"""Families of free-form laws: one file per mechanism, found in this folder and those in it."""
 
 import pkgutil
 from importlib import import_module

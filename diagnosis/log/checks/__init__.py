@@ -1,1 +1,1 @@
-"""Checks of a log that has been read: signs, units, lengths, repeats."""
+"""Checks of a log that has been read: units, lengths, noise, repeats."""

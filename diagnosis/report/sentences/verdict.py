@@ -82,7 +82,7 @@ def _unknown(found: Diagnosis) -> str:
     if best.floor.small and best.objection and {*best.named} == {*near.effects}:
         return (
             f"Unknown: residual {before}. {capital(named)} would leave {left} and explain {power}, "
-            f"but {'do' if several else 'does'} not count: {best.objection}"
+            f"but {'do' if several else 'does'} not count: {best.objections}"
         )
     least = (
         f"at best {left}, with {named}, which {'explain' if several else 'explains'} {power}"

@@ -274,10 +274,10 @@ def test_one_small_promise_ends_no_fit():
     bumpy = Bumpy(2 * NEAR_FLOOR)
     left = bumpy(bumpy.best)
     excess = left @ left - 200
-    stopping = Stopping(bumpy, 1e-3, far=NEAR_FLOOR)
-    for promised in (0.9 * _SLOW, 1.1 * _SLOW, 0.9 * _SLOW):
-        x = bumpy.best + np.array([np.sqrt(promised * excess / 200), 0.0])
-        stopping.jacobian(x, bumpy(x))
+    promised = (0.9 * _SLOW, 1.1 * _SLOW, 0.9 * _SLOW)
+    away = [np.sqrt(share * excess / 200) for share in promised]
+    assert ended(Stopping(bumpy, 1e-3, far=NEAR_FLOOR), bumpy, away) is None
+    assert ended(Stopping(bumpy, 1e-3, far=NEAR_FLOOR), bumpy, [away[0]] * 3) is not None
 
 
 def ends_where_steps_take(share, promised, times=1.0, far=NEAR_FLOOR):

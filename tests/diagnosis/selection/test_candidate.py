@@ -184,7 +184,13 @@ SLOW = NoiseFloor(gap=1.0, slow=1.4)
         ({"floor": SLOW}, "not white: slow part 1.400 σ, limit 1.250"),
         ({"held_out": None}, "held-out trials cannot be simulated: not tried"),
         ({"held_out": None, "held_out_failure": "lost"}, "held-out trials cannot be simulated: lost"),
-        ({"shift": 20.2}, "held-out trials shift by 20.2, limit 12"),
+        (
+            {"shift": 20.2},
+            (
+                "predictions of held-out trials shift by 20.2 times what the uncertainty of the "
+                "parameters makes it, limit 12"
+            ),
+        ),
     ],
 )
 def test_what_does_not_explain_the_log_says_why(known, reason):
@@ -211,6 +217,6 @@ def test_what_is_slow_beside_coloured_noise_explains_nothing(same):
     held = replace(good, coloured={"tip_angle_deg": slow})
     assert not held.explains
     assert held.objection == (
-        "means of tip_angle_deg over seconds are 1.80 times what its noise makes them, limit 1.40"
+        "tip_angle_deg, averaged over seconds, is off by 1.80 times what its noise makes it, limit 1.40"
     )
     assert replace(good, coloured={"tip_angle_deg": replace(slow, slow=1.3)}).explains
