@@ -112,13 +112,13 @@ class Candidate:
         floor = self.floor
         if not floor.small:
             yield f"above the noise floor: residual {floor.gap:.3f} σ, limit {floor.gap_limit:.3f}"
-        if not floor.reached:
+        if floor.slow > floor.slow_limit:
             yield f"not white: slow part {floor.slow:.3f} σ, limit {floor.slow_limit:.3f}"
         if self.reached_bounds:
             yield f"stopped at a bound: {', '.join(self.reached_bounds)}; no real rig is like that"
         if self.as_good_as_none:
             yield f"as good as none: {', '.join(self.as_good_as_none)}; it imitates another effect"
-        if self.held_out is None:
+        if floor.reached and self.held_out is None:
             yield f"held-out trials cannot be simulated: {self.held_out_failure or 'not tried'}"
         for sensor, own in self.coloured.items():
             if own.slow > own.slow_limit:

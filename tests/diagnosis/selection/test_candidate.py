@@ -199,6 +199,20 @@ def test_what_does_not_explain_the_log_says_why(known, reason):
     assert one.explains is (reason == "")
 
 
+def test_all_that_speaks_against_it_is_told_first_things_first():
+    alone = [scored(["tip_drag"], 1.0, **known) for known in ({"floor": ABOVE}, {"shift": 20.2})]
+    both = scored(["tip_drag"], 1.0, floor=ABOVE, shift=20.2)
+    assert both.objections == "; ".join(one.objection for one in alone)
+    assert both.objection == alone[0].objection
+    assert scored(["tip_drag"], 1.0).objections == ""
+
+
+@pytest.mark.parametrize("floor", [ABOVE, SLOW], ids=["above the noise", "not white"])
+def test_above_the_floor_it_is_no_objection_that_held_out_trials_were_not_tried(floor):
+    tried = scored(["tip_drag"], 1.0, floor=floor)
+    assert replace(tried, held_out=None).objections == tried.objection
+
+
 @pytest.mark.parametrize(("exponent", "explains"), [(1.002, False), (0.995, False), (0.98, True)])
 def test_an_exponent_of_nearly_one_is_no_shear_thinning(exponent, explains):
     """It took off what hardening tissue leaves beside elastic tissue, with an exponent of 1.002."""

@@ -142,12 +142,13 @@ def test_what_the_sensors_do_beside_the_nearest_explanation_is_told_with_it(dry)
 
 def test_what_would_leave_little_but_does_not_count_is_told_with_its_power(dry):
     far = NoiseFloor(gap=1.01, slow=1.5)
-    best = replace(dry.found.verdict.best, floor=far)
+    best = replace(dry.found.verdict.best, floor=far, shift=20.2)
     found = concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=(), best=best)
     told = headline(found)
     power = f"{found.assessment.nearest.power_explained_percent:.0f} % of its power"
     assert told.startswith(f"Unknown: residual {in_sigma(found.assessment.gap.before)}. Dry (Coulomb)")
     assert f"and explain {power}, but does not count: not white" in told
+    assert "; predictions of held-out trials shift by 20.2 times" in told
 
 
 def test_what_the_named_effect_cannot_be_told_from_stands_beside_it(dry):
