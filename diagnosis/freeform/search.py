@@ -1,7 +1,8 @@
 """Which free-form law closes most of a gap that no effect of the library explains.
 
 Every family is fitted through the simulation: for one iteration on the decimated log with a rougher
-needle, a few where it has few numbers; the most promising for a few more; the best to their end on the
+needle, a few where it has few numbers; the promising for one more, since what is far from straight
+shows little with its first; the most promising for a few more; the best to their end on the
 decimated log, the strength of their prior estimated, with a finer curve where that promises more, and,
 if none closes the gap, growing with another variable, then beside the effects of the library or the
 other laws that promise most there, and if that is not enough but near, beside a third; the best of
@@ -42,8 +43,8 @@ SCREENING, FITTING, FINALS = (
     "free-form laws",
     "finalists, free-form laws",
 )
-MORE_ITERATIONS = 3
-WORTH_MORE = 10  # families that get more than the first iteration
+WORTH_A_SECOND, WORTH_MORE = 20, 10  # families that get a second iteration, and more than that
+MORE_ITERATIONS = 2
 IN_REACH = 2.5  # times the least predicted gap
 CONTENDERS, FINALISTS, FAR_FINALISTS, FINALISTS_OF_ONE = 6, 4, 2, 2
 FEWEST_FINALISTS = 2
@@ -109,8 +110,9 @@ def _alone(
 ) -> tuple[list[FreeFit], list[FreeFit]]:
     """The first fit of every family for a rougher needle, and those in reach, fitted to their end."""
     first = each_fit(SCREENING, first_fit, [(rough, base, f) for f in families], workers)
-    better, rest = _promising(first, WORTH_MORE)
-    first = each_fit(SCREENING, _some_more, [(rough, f) for f in better], workers) + rest
+    for worth, iterations in ((WORTH_A_SECOND, 1), (WORTH_MORE, MORE_ITERATIONS)):
+        better, rest = _promising(first, worth)
+        first = each_fit(SCREENING, _some_more, [(rough, f, iterations) for f in better], workers) + rest
     near, further = _promising(first, CONTENDERS)
     fitted = each_fit(FITTING, full_fit, [(coarse, f) for f in near], workers)
     if not fitted:  # the only ones in reach cannot be simulated where they lead
@@ -174,9 +176,9 @@ def _far(
     return gap_on_the_log(least, problem, coarse) > most_gap
 
 
-def _some_more(rough: FitProblem, first: FreeFit) -> FreeFit:
+def _some_more(rough: FitProblem, first: FreeFit, iterations: int) -> FreeFit:
     own = with_family(rough, first.family)
-    fit = fit_effects(own, first.fit.names, first.fit.x, most_iterations=MORE_ITERATIONS)
+    fit = fit_effects(own, first.fit.names, first.fit.x, most_iterations=iterations)
     return replace(first, fit=fit.with_its_prediction(), gap_after=fit.gap)
 
 

@@ -19,6 +19,11 @@ from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 
 
+def fit_of(family, gap):
+    """A fit that leaves a gap and promises no other."""
+    return linear_fit(family, [np.zeros((100, 1))], [np.full(100, gap)], x=[0.0])
+
+
 @pytest.fixture
 def fitted(monkeypatch):
     """The search among families whose fits are given: gaps by name, first, to the end, on the log."""
@@ -35,8 +40,12 @@ def fitted(monkeypatch):
             gap = gaps[" + ".join(one.names)]
             if gap is None:
                 raise SimulationFailed("lost")
-            fit = linear_fit(one.family, [np.zeros((100, 1))], [np.full(100, gap)], x=[0.0])
-            return replace(one, fit=fit, gap_after=gap, **known)
+            return replace(one, fit=fit_of(one.family, gap), gap_after=gap, **known)
+
+        def iterated(one, iterations):
+            run.more.append((one.family.name, iterations))
+            gap = run.improved.get(one.family.name)
+            return one if gap is None else replace(one, fit=fit_of(one.family, gap))
 
         def pairs_of_laws(_, laws, others):
             pairs = (replace(law, others=(*law.others, o.family)) for law in laws for o in others)
@@ -62,7 +71,7 @@ def fitted(monkeypatch):
                 for name in names
             ],
             "laws_beside": pairs_of_laws,
-            "_some_more": lambda _, one: one,
+            "_some_more": lambda _, one, iterations: iterated(one, iterations),
             "_on_the_log": lambda _, one, far: made(final, one, final=True),
         }
         for name, function in given.items():
@@ -70,6 +79,7 @@ def fitted(monkeypatch):
                 monkeypatch.setattr(module, name, function, raising=False)
         return free_form_fits(problem, problem, effects, Workers())
 
+    run.more, run.improved = [], {}
     return run, seen
 
 
@@ -120,6 +130,18 @@ def test_a_law_that_comes_nowhere_at_first_goes_on_where_its_slopes_promise_more
     monkeypatch.setattr(search, "CONTENDERS", 3)
     run(gaps, gaps)
     assert [name for name, _, _ in seen[10:13]] == ["law 9", "law 0", "law 1"]
+
+
+def test_a_law_that_comes_far_with_its_second_iteration_gets_more(fitted):
+    """It is far from straight, and shows little with its first."""
+    run, seen = fitted
+    gaps = {f"law {i:02}": 2.0 + 0.02 * i for i in range(search.WORTH_A_SECOND + 2)}
+    first, (late, *others) = list(gaps)[: search.WORTH_MORE], list(gaps)[search.WORTH_A_SECOND - 1 :]
+    run.improved = {late: 1.5}
+    run(gaps, {**gaps, late: 1.5})
+    assert {name for name, iterations in run.more if iterations == 1}.isdisjoint(others)
+    assert [name for name, iterations in run.more if iterations > 1] == [late, *first[:-1]]
+    assert seen[len(gaps)][0] == late
 
 
 def test_fewer_go_to_the_log_itself_where_all_leave_far_more_than_noise(fitted):

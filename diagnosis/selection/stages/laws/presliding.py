@@ -6,6 +6,9 @@ and other effects would take that up. So with the best set of effects, if it has
 near the noise, the angle is fitted. If that takes off more than chance, and than a further parameter
 costs, the rig has it in all fits from there on. Leading explanations with dry friction are fitted again,
 on the log itself and decimated; others with dry friction are dropped.
+
+An angle that was fitted beside two effects takes up part of what a third does. So where a better set
+asks for another angle later, it gets that; or the usual one, if that leaves little more.
 """
 
 import math
@@ -58,35 +61,40 @@ def presliding_of_dry_friction(state: SearchState, workers: Workers) -> SearchSt
     """The state with the presliding angle that the log asks for, where dry friction leads."""
     best = state.best
     near = best.fit.cost <= NEAR_FLOOR * best.fit.samples
-    fitted = state.problem.log.presliding_deg != PRESLIDING_DEG
-    if fitted or not (near and _slides_dry(best)):
+    if not (near and _slides_dry(best)):
         return state
     asked = (PRESLIDING_LEAD + math.log(best.fit.samples)) * max(1.0, best.fit.gap**2)
-    open_angle = replace(state.problem, library={**state.problem.library, ANGLE.name: ANGLE})
-    task = Task(effects=best.names, arguments=(open_angle, best.fit, asked))
-    found = workers.each(STAGE, _with_the_angle, [task])[0]
-    if isinstance(found, Failure) or found is None or best.fit.cost - found.cost < asked:
+    task = Task(effects=best.names, arguments=(state.problem, best.fit, asked))
+    angle_deg = workers.each(STAGE, _better_angle_deg, [task])[0]
+    if isinstance(angle_deg, Failure) or angle_deg is None:
         return state
-    ratio = ANGLE.parameters[0].from_fit(float(found.parts[ANGLE.name][0]))
-    if ratio >= ANGLE.parameters[0].high:
+    if angle_deg >= ANGLE.parameters[0].high * PRESLIDING_DEG:
         return state.noting(noted(STAGE, Decision.DROPPED, "the angle is beyond any of dry friction"))
-    return _with_angle(state, ratio * PRESLIDING_DEG, workers)
+    return _with_angle(state, angle_deg, workers)
 
 
 def _slides_dry(one: Candidate) -> bool:
     return one.fit.parameterization.rig(one.fit.x).slides_dry
 
 
-def _with_the_angle(problem: FitProblem, base: Fit, asked: float) -> Fit | None:
-    """The fit of the same effects and the angle; None: it promises too little.
+def _better_angle_deg(problem: FitProblem, base: Fit, asked: float) -> float | None:
+    """The angle with which the same effects leave less, by a cost; None: there is none.
 
     Raises:
       SimulationFailed: the rig cannot be simulated with another angle.
     """
-    promised = screen(problem, base, ANGLE.name)[0]
+    open_angle = replace(problem, library={**problem.library, ANGLE.name: ANGLE})
+    promised = screen(open_angle, base, ANGLE.name)[0]
     if promised.gain < asked:
         return None
-    return fit_effects(problem, promised.names, promised.start, from_a_fit=True)
+    found = fit_effects(open_angle, promised.names, promised.start, from_a_fit=True)
+    if base.cost - found.cost < asked:
+        return None
+    if problem.log.presliding_deg != PRESLIDING_DEG:
+        usual = fit_effects(_sliding(problem, PRESLIDING_DEG), base.names, base.x, from_a_fit=True)
+        if usual.cost - found.cost < asked:
+            return PRESLIDING_DEG
+    return ANGLE.parameters[0].from_fit(float(found.parts[ANGLE.name][0])) * PRESLIDING_DEG
 
 
 def _with_angle(state: SearchState, angle_deg: float, workers: Workers) -> SearchState:

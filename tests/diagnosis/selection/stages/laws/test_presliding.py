@@ -15,6 +15,7 @@ from diagnosis.selection.stages.laws import presliding
 from diagnosis.selection.stages.laws.presliding import STAGE, presliding_of_dry_friction
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.workers import Failure, Workers
+from sim.discretisation import PRESLIDING_DEG
 
 LEVEL = 0.006
 
@@ -113,9 +114,34 @@ def test_a_best_that_fails_with_it_stays_as_it_was(early, monkeypatch):
     assert after.record[-1].decision is Decision.DROPPED
 
 
-def test_it_is_fitted_once(early):
+def test_the_same_set_does_not_ask_again(early):
     _, after = early
     assert presliding_of_dry_friction(after, Workers()) is after
+
+
+@pytest.fixture(scope="module")
+def misled(early):
+    """As `early` after the stage, with an angle that an effect which was missing then had led to."""
+    _, after = early
+    wrong = [replace(p, log=replace(p.log, presliding_deg=0.5)) for p in (after.problem, after.coarse)]
+    best = fit_all("other", [(wrong[0], ("coulomb_friction",))], Workers())[0]
+    return replace(after, problem=wrong[0], coarse=wrong[1], candidates=tuple(best))
+
+
+def test_a_better_set_gets_an_angle_of_its_own(misled):
+    found = presliding_of_dry_friction(misled, Workers())
+    assert found.problem.log.presliding_deg == pytest.approx(0.3, rel=0.1)
+    assert found.best.fit.cost < misled.best.fit.cost - 10.0
+
+
+def test_it_goes_back_to_the_usual_angle_if_that_leaves_little_more():
+    usual, _ = searched(kinetic_n_mm_per_mm=LEVEL)
+    wrong = replace(usual.problem, log=replace(usual.problem.log, presliding_deg=0.3))
+    best, _ = fit_all("other", [(wrong, ("coulomb_friction",))], Workers())
+    misled = replace(usual, problem=wrong, candidates=tuple(best))
+    found = presliding_of_dry_friction(misled, Workers())
+    assert found.problem.log.presliding_deg == PRESLIDING_DEG
+    assert not told(found)
 
 
 @pytest.mark.parametrize(
