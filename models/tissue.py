@@ -24,6 +24,7 @@ from pydantic import Field, model_validator
 
 from models.contact import ContactCurve
 from models.errors import InvalidValue
+from models.kerf import Kerf
 from models.needle import NonNegative, Positive
 from models.record import Record
 
@@ -148,6 +149,8 @@ class Tissue(Record):
     """Laws in one place, at the tip: their torques are N mm in place of N mm per mm."""
     at_entry: tuple[Interface, ...] = ()
     """The same where the shaft enters."""
+    kerfs: tuple[Kerf, ...] = ()
+    """What holds the tip in the slit that it has cut."""
     unknown: tuple[str, ...] = ()
     """What the source does not state of this tissue, and what is assumed instead."""
 

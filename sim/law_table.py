@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from models import units
 from models.contact import ContactCurve, ContactVariable
 from models.drive import Drive
+from models.kerf import Kerf
 from models.needle import Needle
 from models.tissue import Interface, Layer, Section, Tissue
 from sim.kernel import memory_map
@@ -50,6 +51,7 @@ def law_table(needle: Needle, drive: Drive, tissue: Tissue, *, rows: int = 0) ->
     table += [_over_inserted_length(law) for law in tissue.throughout]
     table += [_section(section) for section in tissue.sections]
     table += [_at_tip(law) for law in tissue.at_tip]
+    table += [_kerf(kerf, needle) for kerf in tissue.kerfs]
     table += [_at_entry(law) for law in tissue.at_entry]
     table += [_over_free_length(law) for law in drive.in_sheath]
     if drive.sheath_friction_n_mm_per_mm > 0:
@@ -124,6 +126,18 @@ def _at_tip(law: Interface) -> Array:
     """A law at the tip alone, where torques are not per mm."""
     row = _at_entry(law)
     row[memory_map.L_TOP_INSERTED] = 1.0
+    return row
+
+
+def _kerf(kerf: Kerf, needle: Needle) -> Array:
+    """At the tip."""
+    row = _inactive_row()
+    row[[memory_map.L_POINT, memory_map.L_TOP_FREE, memory_map.L_TOP_INSERTED]] = 1.0
+    angle = (kerf.angle_deg or 0.0) * units.DEG
+    row[memory_map.L_STIFFNESS] = kerf.torque_n_mm * units.N_MM / (angle or 1.0)
+    row[memory_map.L_KERF_ANGLE] = angle
+    row[memory_map.L_KERF] = needle.radius_mm / kerf.travel_mm
+    row[memory_map.L_BACKWARDS] = kerf.backwards
     return row
 
 

@@ -18,6 +18,7 @@ from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.free_parts.free_grip import FreeGrip
 from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.variables import Variable
+from models.kerf import Kerf
 from models.tissue import Interface
 
 OVER_DEPTH = Curve(
@@ -54,6 +55,7 @@ EVERYTHING = replace(
     grip=FreeGrip(torque_n_mm=0.5, play_deg=3.0, stiffness_n_mm_per_rad=1.0),
     from_start=(Interface(orientation_n_mm_per_mm=0.01, orientation_cycles=0.1),),
     at_tip=(Interface(viscous_n_mm_s_per_mm=0.1),),
+    kerfs=(Kerf(torque_n_mm=0.1, travel_mm=5.0),),
 )
 """A law that uses every field."""
 SOFTENING = FreeLaw(

@@ -40,6 +40,7 @@ from diagnosis.replay.sensing.curve_signals import on_gain, on_needle, on_readin
 from diagnosis.replay.variables import Variable
 from models.contact import ContactCurve
 from models.drive import Drive
+from models.kerf import Kerf
 from models.needle import Needle
 from models.tissue import Interface, Section, Tissue
 from sim.schedule import Schedule
@@ -56,7 +57,7 @@ _TORQUES = (
     "orientation_viscous_n_mm_s_per_mm",
     "orientation_dry_n_mm_per_mm",
 )
-_ADDED = ("curves", "throughout", "from_start", "sections", "at_tip", "at_entry", "in_sheath")
+_ADDED = ("curves", "throughout", "from_start", "sections", "at_tip", "at_entry", "in_sheath", "kerfs")
 _RECORDS = ("shaft", "grip")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
 _OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_COUNTS, ActsOn.TIP_GAIN)
@@ -86,6 +87,7 @@ class FreeLaw:
       throughout, sections, at_tip, at_entry: additional laws (models.tissue).
       from_start: additional laws like those throughout, whose angle is from where a trial starts.
       in_sheath: additional laws of the free shaft (models.drive).
+      kerfs: what holds the tip in the slit that it has cut (models.kerf).
 
     Raises:
       InvalidValue: a value is not allowed in an `Interface`.
@@ -109,6 +111,7 @@ class FreeLaw:
     at_tip: tuple[Interface, ...] = ()
     at_entry: tuple[Interface, ...] = ()
     in_sheath: tuple[Interface, ...] = ()
+    kerfs: tuple[Kerf, ...] = ()
 
     def __post_init__(self) -> None:
         Interface(
@@ -123,7 +126,7 @@ class FreeLaw:
     def more_rows(self) -> int:
         """Number of additional rows in the law table."""
         along = (self.throughout, self.from_start, self.sections)
-        laws = (*along, self.at_tip, self.at_entry, self.in_sheath)
+        laws = (*along, self.at_tip, self.at_entry, self.in_sheath, self.kerfs)
         return sum(map(len, laws)) + self.along_depth.parts
 
     def times(self, strength: float) -> "FreeLaw":
@@ -152,6 +155,7 @@ class FreeLaw:
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
             at_entry=tuple(_stronger(law, strength) for law in self.at_entry),
             in_sheath=tuple(_stronger(law, strength) for law in self.in_sheath),
+            kerfs=_kerfs_times(self.kerfs, strength),
         )
 
     def beside(self, other: "FreeLaw") -> "FreeLaw":
@@ -219,6 +223,7 @@ class FreeLaw:
             sections=self.sections,
             at_tip=self.at_tip,
             at_entry=self.at_entry,
+            kerfs=self.kerfs,
         )
         return whole
 
@@ -285,6 +290,13 @@ def _stronger(law: Interface, strength: float) -> Interface:
         changes["stiffness_n_mm_per_rad_per_mm"] = strength * law.stiffness_n_mm_per_rad_per_mm
     stronger: Interface = law.but(**changes)
     return stronger
+
+
+def _kerfs_times(kerfs: tuple[Kerf, ...], strength: float) -> tuple[Kerf, ...]:
+    """Kerfs with their torque multiplied; none at strength 0."""
+    if strength == 0.0:
+        return ()
+    return tuple(kerf.but(torque_n_mm=strength * kerf.torque_n_mm) for kerf in kerfs)
 
 
 def _turned(law: Interface, angle_deg: float) -> Interface:

@@ -13,7 +13,8 @@ and, where the tissue yields (Kelvin-Voigt, in series with all of the above),
     f = k phi + k tau dphi/dt,   dphi/dt = omega - s,   phi = phi* + g dphi/dt,
 
 with k times a curve over |phi| where it hardens or softens, or over the largest |phi| so far where it
-softens for good, and |phi| at most that at which it flows.
+softens for good, and |phi| at most that at which it flows. In its kerf the tip does not slip
+(sim.kernel.kerf), and phi is the angle from it.
 
 A row may be shaped: its viscous torque follows a curve of the rate, exp of log factors that run
 straight over log |s|; its torque is (1 + a) times for positive and (1 - a) times for negative torque;
@@ -31,6 +32,7 @@ from typing import NamedTuple
 
 from sim.kernel import memory_map
 from sim.kernel.compiled import Array, embedded
+from sim.kernel.kerf import in_kerf
 from sim.kernel.stage.curves import contact_factor, past_after, rate_factor, remembered
 
 _INNER_ITERATIONS = 40
@@ -173,6 +175,9 @@ def site_law(
         k *= stage.factor
     if row[memory_map.L_VARIES] == memory_map.STIFFNESS_VARIES:
         tau *= stage.factor ** (row[memory_map.L_FOLLOWS] - 1.0)
+    if row[memory_map.L_KERF] > 0.0:
+        held = in_kerf(omega, row, old.phi, stage.g, stage.axial)
+        return held.torque, held.slope, 0.0, Memory(old.dry, old.turn, old.axial, held.phi, old.past)
     if k <= 0.0:
         torque, slope, new = slip_law(omega, row, extra, old, stage)
         return torque, slope, omega, new

@@ -92,6 +92,9 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_FOLLOWS,  # power of a factor of its stiffness by which its viscosity goes along
     L_FLOWS,  # its twist beyond which it flows, rad; 0: it is elastic
     L_DRAGGED,  # share of the axial motion by which its twist goes along with the shaft
+    L_KERF,  # of its angle from the kerf, what axial motion by a radius takes; 0: there is no kerf
+    L_BACKWARDS,  # part of the way back that counts
+    L_KERF_ANGLE,  # beyond which its torque hardly grows, rad; 0: it is a sine
     L_CURVATURE,  # N m / m
     L_WAVE,  # viscous torque times a wave over the angle, N m s / rad / m
     L_KEYED,  # dry level times 1 + a wave over the angle, N m / m
@@ -142,7 +145,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT_7,
     L_CONTACT_8,
     COLUMNS,
-) = range(70)
+) = range(73)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
 SLIP_SO_FAR, AGE, HEAT, BROKEN, TURNED, ALIGNED, TWIST, STRAINED = (

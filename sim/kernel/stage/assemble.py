@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from sim.kernel import memory_map
 from sim.kernel.compiled import Array, embedded, inlined
+from sim.kernel.kerf import kerf_energy
 from sim.kernel.law import Stage, recall, remember, site_law
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 from sim.kernel.stage.curves import contact_factor, mean_factor
@@ -157,9 +158,13 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
         old = recall(before[at.slot, at.k])
         torque, slope, slip, new = site_law(rate, row, extra, old, stage, last)
         remember(after[at.slot, at.k], new, slip)
-        stiffness = factor * weight * row[memory_map.L_STIFFNESS]
-        stored += 0.5 * stiffness * new.phi * new.phi
-        recoverable += stiffness * new.phi * (new.phi - old.phi) / g  # what flows is lost
+        if row[memory_map.L_KERF] > 0.0:
+            stored += weight * kerf_energy(new.phi, row)
+            recoverable += weight * torque * (new.phi - old.phi) / g  # what is cut anew is lost
+        else:
+            stiffness = factor * weight * row[memory_map.L_STIFFNESS]
+            stored += 0.5 * stiffness * new.phi * new.phi
+            recoverable += stiffness * new.phi * (new.phi - old.phi) / g  # what flows is lost
         if curvature != 0.0 or wave != 0.0:
             sine, cosine = math.sin(angle), math.cos(angle)
             torque += curvature * sine + wave * cosine * rate

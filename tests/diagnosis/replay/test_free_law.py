@@ -10,6 +10,7 @@ from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.variables import Variable
 from models.errors import InvalidValue
+from models.kerf import Kerf
 from models.tissue import RATE_POINTS, Interface, Layer, Tissue
 from sim.schedule import Schedule
 
@@ -163,3 +164,11 @@ def test_friction_that_builds_up_in_the_drive_over_its_turn_is_read_as_torque():
     tip, torque = FreeLaw(curves=(own,)).sensed(inputs(), 0.0, TIP, TORQUE)
     np.testing.assert_array_equal(tip, 0.0)
     np.testing.assert_allclose(torque, 0.01 * np.minimum(inputs().drive, 50.0), atol=1e-9)
+
+
+def test_a_kerf_gets_stronger_and_is_gone_at_no_strength():
+    law = FreeLaw(kerfs=(Kerf(torque_n_mm=0.2, travel_mm=5.0),))
+    assert [kerf.torque_n_mm for kerf in law.times(0.5).kerfs] == [0.1]
+    assert law.times(0.0).kerfs == ()
+    assert law.tissue(Tissue(layers=(Layer(interface=LAYER),))).kerfs == law.kerfs
+    assert law.more_rows == 1
