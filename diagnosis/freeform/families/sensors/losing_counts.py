@@ -1,7 +1,8 @@
 """An encoder that loses counts where it turns fast, or a drive that falls behind its encoder there.
 
     rate of the needle at the chuck = rate that is read                      up to a rate, either way
-                                      rate that is read (1 + share)          beyond it
+                                      rate that is read (1 + share)          beyond it,
+                                      or rate that is read + share (its excess)
 
     rate that is read at the tip = rate of the tip                           up to a rate, either way
                                    rate of the tip + share (its excess)      beyond it
@@ -9,7 +10,7 @@
 A smooth curve over the rate has no such jump.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -30,26 +31,44 @@ _STARTS = tuple((level, share) for level in (0.2, 0.4, 0.6, 0.8) for share in (_
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """The law of the base, and that of the tip, if they turn."""
-    makes = {Variable.RATE: _of_base, Variable.TIP_RATE: _of_tip}
+    """The laws of the base, and that of the tip, if they turn."""
+    makes = {Variable.RATE: (_of_base, _of_excess), Variable.TIP_RATE: (_of_tip,)}
     fastest = {v: max(abs(end) for end in ranges.ends[v]) for v in makes if v in ranges.ends}
-    return tuple(makes[variable](most) for variable, most in fastest.items())
+    return tuple(make(most) for variable, most in fastest.items() for make in makes[variable])
 
 
 def _of_base(fastest: float) -> Family:
+    return _of_drive(
+        fastest,
+        "drive slip over rate, beyond a level",
+        "an encoder that loses counts where it turns fast",
+        _ahead,
+    )
+
+
+def _of_excess(fastest: float) -> Family:
+    return _of_drive(
+        fastest,
+        "drive slip over rate, by the excess over a level",
+        "an encoder that loses the more counts the faster it turns",
+        _excess,
+    )
+
+
+def _of_drive(fastest: float, name: str, title: str, ahead: Callable[..., Points]) -> Family:
     return Family(
         effect=Effect(
-            name="drive slip over rate, beyond a level",
-            title="an encoder that loses counts where it turns fast",
+            name=name,
+            title=title,
             place=Place.DRIVE,
             parameters=_parameters(fastest),
-            apply=partial(_apply, fastest),
+            apply=partial(_apply, ahead, fastest),
             differences=(1e-1, 1e-2),
         ),
         places={Place.DRIVE: 0.5, Place.SENSOR: 0.5},
         says=Variable.RATE,
         title="rate at which the drive runs ahead of its encoder",
-        curve=partial(_ahead, fastest),
+        curve=partial(ahead, fastest),
         x_unit="rad/s",
         unit="deg/s",
     )
@@ -96,7 +115,7 @@ def _ahead(fastest: float, level: float, share: float) -> Points:
 
 
 def _excess(fastest: float, level: float, share: float) -> Points:
-    """By how much faster than the tip its sensor turns, deg/s, over the rate of the tip."""
+    """The same by a share of the excess alone; or of the sensor of the tip, over the rate of the tip."""
     rates = _beyond(fastest, level)
     return _either_way(rates, [share * (rate - level) for rate in rates])
 
@@ -113,8 +132,10 @@ def _either_way(rates: Sequence[float], more: Sequence[float]) -> Points:
     return (*back[0], *rates), (*back[1], *(value / units.DEG for value in more))
 
 
-def _apply(fastest: float, rig: RigParameters, level: float, share: float) -> RigParameters:
-    return running_ahead(rig, *_ahead(fastest, level, share))
+def _apply(
+    ahead: Callable[..., Points], fastest: float, rig: RigParameters, level: float, share: float
+) -> RigParameters:
+    return running_ahead(rig, *ahead(fastest, level, share))
 
 
 def _apply_to_tip(fastest: float, rig: RigParameters, level: float, share: float) -> RigParameters:

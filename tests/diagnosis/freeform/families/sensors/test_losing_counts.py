@@ -13,7 +13,7 @@ from sim.schedule import Schedule
 
 ANGLE = turns(6.0)
 SEEN = (ANGLE, 0.02 * ANGLE)
-FAMILY, OF_TIP = families(covered(ANGLE, tip=ANGLE, seen=SEEN))
+FAMILY, OF_EXCESS, OF_TIP = families(covered(ANGLE, tip=ANGLE, seen=SEEN))
 
 
 def schedule(rate_deg_s):
@@ -33,10 +33,19 @@ def test_beyond_the_level_the_needle_turns_by_a_share_more(sign, rate_deg_s, rat
     np.testing.assert_allclose(turned, ratio * read.drive, rtol=2e-3)
 
 
-def test_without_a_share_it_is_the_nominal_rig():
-    level = FAMILY.effect.parameters[0].start[0]
-    assert same_readings(ANGLE, FAMILY.effect.apply(NOMINAL, level, 0.0), NOMINAL)
-    assert not same_readings(ANGLE, FAMILY.effect.apply(NOMINAL, level, 0.3), NOMINAL)
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize(("rate_deg_s", "more_deg_s"), [(20.0, 0.0), (60.0, 0.25 * (60 - 40.1))])
+def test_or_by_a_share_of_what_it_exceeds_the_level_by(sign, rate_deg_s, more_deg_s):
+    read = schedule(sign * rate_deg_s)
+    turned = driven(OF_EXCESS.effect.apply(NOMINAL, 0.7, 0.25), read).drive
+    np.testing.assert_allclose(turned, (1.0 + more_deg_s / rate_deg_s) * read.drive, rtol=2e-3)
+
+
+@pytest.mark.parametrize("family", [FAMILY, OF_EXCESS], ids=["of all", "of the excess"])
+def test_without_a_share_it_is_the_nominal_rig(family):
+    level = family.effect.parameters[0].start[0]
+    assert same_readings(ANGLE, family.effect.apply(NOMINAL, level, 0.0), NOMINAL)
+    assert not same_readings(ANGLE, family.effect.apply(NOMINAL, level, 0.3), NOMINAL)
 
 
 def test_what_it_depends_on_has_a_word_and_a_base_at_rest_has_none():
