@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 from sim.kernel import memory_map
 from sim.kernel.compiled import Array, embedded, inlined
-from sim.kernel.kerf import kerf_energy
-from sim.kernel.law import Stage, recall, remember, site_law
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
-from sim.kernel.stage.curves import contact_factor, mean_factor
+from sim.kernel.site.curves import contact_factor, mean_factor
+from sim.kernel.site.kerf import kerf_energy
+from sim.kernel.site.law import site_law
+from sim.kernel.site.memory import Stage, recall, remember
 from sim.kernel.stage.workspace import Frame, Workspace
 
 # A place is the end of the shaft if it lies within this fraction of the last element.

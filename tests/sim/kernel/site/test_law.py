@@ -1,9 +1,5 @@
-"""The law of one contact site against the equations of its docstring.
+"""The law of one contact site against the equations of its docstring, in the interpreter."""
 
-`sim.kernel.law` in the interpreter: the same source, nothing to compile.
-"""
-
-import math
 
 import numpy as np
 import pytest
@@ -16,22 +12,6 @@ def law(interpreted):
     return interpreted.law
 
 
-@pytest.fixture
-def row(interpreted):
-    """A row of the law table from its fields."""
-    places = interpreted.memory_map
-
-    def made(**fields):
-        values = [0.0] * places.COLUMNS
-        for name, value in (
-            {"exponent": 1.0, "plateau": 1e-5, "stribeck": 1.0, "axial": 1.0} | fields
-        ).items():
-            values[getattr(places, f"L_{name.upper()}")] = value
-        return values
-
-    return made
-
-
 def stage(law, *, axial=0.0):
     return law.Stage(G, axial, YIELD)
 
@@ -42,41 +22,6 @@ def memory(law, dry=0.0, turn=0.0, axial=0.0, phi=0.0, past=0.0):
 
 def slip_torque(law, row, s, old=None, axial=0.0):
     return law.slip_law(s, row, 0.0, old or memory(law), stage(law, axial=axial))
-
-
-@pytest.mark.parametrize("exponent", [0.5, 1.0, 1.4])
-def test_the_power_law_grows_with_its_exponent(law, row, exponent):
-    fields = row(viscous=0.02, exponent=exponent)
-    one, two = (slip_torque(law, fields, s)[0] for s in (1.0, 2.0))
-    assert one == pytest.approx(0.02)
-    assert two / one == pytest.approx(2**exponent)
-
-
-def test_a_dry_element_is_a_spring_up_to_its_level(law, row):
-    fields = row(kinetic=0.3, static=0.3)
-    half = slip_torque(law, fields, 0.5 * YIELD / G)
-    full = slip_torque(law, fields, 20 * YIELD / G)
-    assert half[0] == pytest.approx(0.15)
-    assert full[0] == pytest.approx(0.3)
-    assert full[2].dry == pytest.approx(YIELD)
-    assert (half[1], full[1]) == pytest.approx((0.3 * G / YIELD, 0.0))
-
-
-@pytest.mark.parametrize("s", [0.02, 0.1, 0.3])
-def test_sliding_friction_falls_from_static_to_kinetic_as_stribeck_says(law, row, s):
-    fields = row(kinetic=0.1, static=0.3, stribeck=0.1)
-    slipped = memory(law, dry=YIELD)
-    torque = slip_torque(law, fields, s, slipped)[0]
-    assert torque == pytest.approx(0.1 + 0.2 * math.exp(-((s / 0.1) ** 2)))
-
-
-def test_friction_shared_with_axial_sliding_points_along_the_slip(law, row):
-    fields, turn, axial = row(shared=0.2), 0.3, 0.4
-    old = memory(law)
-    for _ in range(50):  # each stage turns the presliding further towards the slip
-        torque, _, old = slip_torque(law, fields, turn, old, axial)
-    assert torque == pytest.approx(0.2 * turn / math.hypot(turn, axial), rel=1e-6)
-    assert math.hypot(old.turn, old.axial) == pytest.approx(YIELD)
 
 
 @pytest.mark.parametrize("share", [1.0, 0.2])

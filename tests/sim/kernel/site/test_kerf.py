@@ -1,4 +1,4 @@
-"""The kerf of the tip against the equations of its docstring; `sim.kernel.kerf` in the interpreter."""
+"""The kerf of the tip against the equations of its docstring, in the interpreter."""
 
 import math
 from types import SimpleNamespace

@@ -1,0 +1,1 @@
+"""One contact site: its law, torque against slip, and what it remembers."""
