@@ -1,7 +1,9 @@
 """One trial in another unit than the others.
 
 Two independent signs have to agree: it scatters less than rig.yaml claims by the ratio of two units,
-where other trials scatter as claimed, and it swings less than in those trials by the same ratio.
+where other trials scatter as claimed, and it swings less than in those trials by the same ratio. A base
+that does both more is no sign: one that turns fast between two samples scatters the more the farther
+it swings.
 """
 
 from collections.abc import Mapping, Sequence
@@ -48,7 +50,7 @@ def _other_unit(trial: Trial, column: str, others: Sequence[Trial], claim: float
     """The unit that both the scatter and the swing of a column speak of; None: there is none."""
     found = scatter(trial[column])
     unit = unit_off_by(column, claim / found) if found > 0 else None
-    if unit is None:
+    if unit is None or (column == _BASE and unit.factor < 1):
         return None
     usual = float(np.median([_swing(other, column) for other in others]))
     times = usual / max(_swing(trial, column), 1e-300)

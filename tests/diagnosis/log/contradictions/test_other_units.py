@@ -51,6 +51,25 @@ def test_a_tip_that_hardly_turns_is_no_other_unit(log):
     assert reread(log, lambda t: t.assign(tip_angle_deg=stuck)).trials
 
 
+@pytest.mark.parametrize(("factor", "refused"), [(1e3 * RAD, False), (RAD, True)])
+def test_a_base_that_scatters_and_swings_more_is_no_other_unit_but_one_that_does_both_less_is(
+    log, factor, refused
+):
+    """By 17, as of mrad: it turns faster between two samples. By 57: it is in radians."""
+    noise = read_rig_log(log).rig.sensors.by_column()
+    time_s = np.arange(0.0, 10.0, 0.02)
+    rng = np.random.default_rng(8)
+    usual = 20.0 * np.sin(time_s) + rng.normal(0, noise["base_angle_deg"], time_s.size)
+    tables = [TURNS.iloc[: time_s.size].assign(base_angle_deg=usual * by) for by in (1.0, factor)]
+    trials = [Trial(name=name, table=table) for name, table in zip("ab", tables, strict=True)]
+    paths = [log / one.name for one in trials]
+    if not refused:
+        refuse_other_units(paths, trials, noise)
+        return
+    with pytest.raises(UnusableLog, match="base_angle_deg seems to be in rad"):
+        refuse_other_units(paths, trials, noise)
+
+
 def test_a_log_that_is_in_another_unit_throughout_is_left_to_the_warnings(log):
     """No trial says then what the claim is worth."""
     change_trial(log, scaled("tip_angle_deg", RAD))

@@ -1,6 +1,5 @@
 """The law of one contact site against the equations of its docstring, in the interpreter."""
 
-
 import numpy as np
 import pytest
 
