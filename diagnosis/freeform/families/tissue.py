@@ -63,9 +63,9 @@ def _elastic_over_twist(twist: ContactVariable, ranges: LogRanges) -> Family:
     low_deg, high_deg = ranges.ends[Variable.BASE_ANGLE]
     most_deg = min(0.5 * (high_deg - low_deg), _MOST_DEG)
     curve = replace(smooth_curve(0.0, 1.0, CONTACT_POINTS), places=contact_places(_EVEN_DEG, most_deg))
-    law = partial(_law_over_twist, twist, curve)
+    law, along = partial(_law_over_twist, twist, curve), (_FOLLOWS,)
     words, says, unit = _OF_TWIST[twist]
-    return _elastic(ranges, curve, law, over=twist, words=words, unit=unit, says=says)
+    return _elastic(ranges, curve, law, along, over=twist, words=words, unit=unit, says=says)
 
 
 def _elastic(
@@ -114,9 +114,9 @@ def _law_over_twist(twist: ContactVariable, curve: SmoothCurve, c: Sequence[floa
         over=twist,
         scale=_EVEN_DEG,
         last=float(curve.places[-1]),
-        factors=curve.factors(c),
+        factors=curve.factors(c[1:]),
     )
-    return FreeLaw(contact=contact)
+    return FreeLaw(contact=contact, viscosity_exponent=c[0])
 
 
 def _stiffness(curve: SmoothCurve, more: int, stiffness: float, _: float, *c: float) -> Points:

@@ -6,9 +6,9 @@ tissue yields (Kelvin-Voigt, in series with that), over an implicit stage of len
     f(s) = k phi + k tau dphi/dt,   dphi/dt = omega - s,   phi = phi* + g dphi/dt,
 
 with k times a curve over |phi| where it hardens or softens, or over the largest |phi| so far where it
-softens for good, or times a factor that is an input (k tau then with a power of that); and |phi| is at
-most that at which it flows. In its kerf the tip does not slip (sim.kernel.site.kerf), and phi is the
-angle from it.
+softens for good, or times a factor that is an input, and k tau then times a power of the same; and |phi|
+is at most that at which it flows. In its kerf the tip does not slip (sim.kernel.site.kerf), and phi is
+the angle from it.
 """
 
 import math
@@ -102,15 +102,17 @@ def _elastic(
     """Torque of the tissue where it yields at a rate, rad/s, and its slope, which stays positive."""
     phi = old.phi + g * rate
     held = _held(phi, row)
-    torque, resistance = held + tau * rate, tau + (g if held == phi else _LEAST * g)
-    phi = held
-    if row[memory_map.L_CONTACT] == memory_map.TWIST:
-        factor, rise = contact_factor(abs(phi), row)
-        more = math.copysign(rise, phi) * g * torque
-        resistance *= factor
-        torque, resistance = factor * torque, max(resistance + more, _LEAST * resistance)
-    elif row[memory_map.L_CONTACT] == memory_map.STRAINED:
-        k *= contact_factor(old.past, row)[0]
+    yields = g if held == phi else _LEAST * g
+    if row[memory_map.L_CONTACT] < memory_map.TWIST:
+        return k * (held + tau * rate), k * (tau + yields)
+    twists = row[memory_map.L_CONTACT] == memory_map.TWIST
+    factor, rise = contact_factor(abs(held) if twists else old.past, row)
+    follows = row[memory_map.L_FOLLOWS]
+    tau *= factor ** (follows - 1.0)
+    torque, resistance = factor * (held + tau * rate), factor * (tau + yields)
+    if twists:
+        more = math.copysign(rise, held) * g * (held + follows * tau * rate)
+        resistance = max(resistance + more, _LEAST * resistance)
     return k * torque, k * resistance
 
 

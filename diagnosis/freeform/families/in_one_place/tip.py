@@ -3,7 +3,7 @@
 - drag times a curve of the rate, and dry friction, which may differ between the directions
 - dry friction that twists before it slips, as in a pocket of tissue that holds the bevel
 - drag and dry friction times a curve of the time, the axial speed or the inserted length, as of a bevel
-  that cuts, or of the angle, once a turn
+  that cuts, of how far the base has turned, as of fibres that wind up, or of the angle, once a turn
 """
 
 from dataclasses import replace
@@ -29,7 +29,7 @@ from diagnosis.replay.variables import UNITS, Variable
 from models.tissue import Interface
 
 AT_TIP_MM = 30.0  # of shaft, whose dry friction is as strong as one may start with at the tip
-TORQUE_OVER = (Variable.TIME, Variable.AXIAL_SPEED, Variable.DEPTH)
+TORQUE_OVER = (Variable.TIME, Variable.AXIAL_SPEED, Variable.DEPTH, Variable.HISTORY)
 _SAYS = {Variable.BASE_ANGLE: "tip_angle"}  # which follows that of the base, and is not known before
 _TWISTS_DEG = (5.0, 20.0, 60.0)  # to start with
 _SHOWN_RAD_S = np.array([-1.0, -0.3, -0.1, -0.03, 0.03, 0.1, 0.3, 1.0])

@@ -1,5 +1,7 @@
 """The law of one contact site against the equations of its docstring, in the interpreter."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -65,12 +67,26 @@ CASES = {
         0.0,
     ),
     "hardening tissue": (
-        {"viscous": 0.02, "kinetic": 0.1, "static": 0.1, "stiffness": 5.0, "time": 0.2}
-        | {"contact": 3.0, "contact_scale": 0.01, "contact_step": 0.5}
+        {"viscous": 0.02, "kinetic": 0.1, "static": 0.1, "stiffness": 5.0, "time": 0.2, "follows": 1.0}
+        | {"contact": 7.0, "contact_scale": 0.01, "contact_step": 0.5}
         | {"contact_1": 0.4, "contact_2": 1.1, "contact_3": 1.5},
         0.7,
         0.0,
     ),
+    "hardening tissue whose viscosity hardly does": (
+        {"viscous": 0.02, "stiffness": 5.0, "time": 0.2, "follows": 0.3}
+        | {"contact": 7.0, "contact_scale": 0.01, "contact_step": 0.5}
+        | {"contact_1": 0.4, "contact_2": 1.1, "contact_3": 1.5},
+        0.7,
+        0.0,
+    ),
+    "tissue that has softened for good": (
+        {"viscous": 0.02, "stiffness": 5.0, "time": 0.2, "follows": 0.3}
+        | {"contact": 8.0, "contact_scale": 0.01, "contact_step": 0.5, "contact_4": -0.7},
+        0.7,
+        0.0,
+    ),
+    "kerf": ({"stiffness": 5.0, "kerf": 200.0, "backwards": 1.0, "kerf_angle": 0.05}, 0.7, 0.8),
     "all": (
         {"viscous": 0.02, "kinetic": 0.1, "static": 0.1, "shared": 0.1, "stiffness": 5.0, "time": 0.1},
         1.7,
@@ -104,6 +120,21 @@ def test_yielding_tissue_is_in_series_with_the_slip(law, row):
     assert rate == pytest.approx(omega - s)
     assert torque == pytest.approx(stiffness * new.phi + stiffness * tau * rate)
     assert torque == pytest.approx(slip_torque(law, fields, s, old)[0])
+
+
+@pytest.mark.parametrize("contact", [7.0, 8.0], ids=["twist", "largest twist so far"])
+@pytest.mark.parametrize("follows", [0.0, 0.4, 1.0])
+def test_the_viscosity_goes_along_with_the_stiffness_by_a_power(law, row, contact, follows):
+    """f = k (c phi + c^follows tau dphi/dt), with c of the curve, which is level here."""
+    stiffness, tau, c = 5.0, 0.2, 1.7
+    level = {f"contact_{i}": math.log(c) for i in range(9)}
+    shape = {"contact": contact, "contact_scale": 0.01, "contact_step": 0.5, "follows": follows}
+    fields = row(viscous=0.02, stiffness=stiffness, time=tau, **shape, **level)
+    old = memory(law, phi=0.01, past=0.02)
+    torque, _, s, new = law.site_law(0.7, fields, 0.0, old, stage(law), 0.0)
+    # The last step of the iteration may leave 1e-6 of the slip rate.
+    assert torque == pytest.approx(stiffness * (c * new.phi + c**follows * tau * (0.7 - s)), rel=1e-6)
+    assert torque == pytest.approx(0.02 * s, rel=1e-6)
 
 
 @pytest.mark.parametrize("start", [-3.0, 0.0, 0.69, 40.0])
