@@ -127,6 +127,9 @@ OUTLIER_MOST_LEFT = 0.02
 """Share of a sensor's readings that they come to at most. A choice."""
 OUTLIER_LEFT_SHARE = 0.3
 """Share of what is left beyond noise that they have to be. A choice."""
+FAULT_LEAST_SHARE = 0.01
+"""Of the cost of noise: what an explanation is taken to leave beyond noise at least, of which a drift, a
+jump or outliers have to take off a part. A choice: a residual of 1.005 sigma."""
 UNSAMPLED_SIGMA = 1.0
 """By which the motion of the base between its samples may matter before readings count for less: as much
 as the noise, at the worst of all samples (derived)."""

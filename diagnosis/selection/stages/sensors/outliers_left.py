@@ -21,6 +21,7 @@ from diagnosis.log.faults.outlying import few, outlying
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision, noted
+from diagnosis.selection.scoring.beyond_noise import cost_beyond_noise
 from diagnosis.selection.stages.stage import Stage, first_that_explains, leading_fitted_again
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -116,10 +117,9 @@ def _found(problem: FitProblem, fit: Fit) -> list[_Readings]:
 
 def _are_worth_a_fit(state: SearchState, found: Sequence[_Readings]) -> bool:
     """Whether outliers are few, and a good part of what is left beyond noise."""
-    fit = state.best.fit
-    beyond_noise = max(fit.cost - fit.prior - fit.samples, 0.0)
     taken_off = sum(one.cost_of_outliers for one in found)
-    return all(few(one.off) for one in found) and taken_off > OUTLIER_LEFT_SHARE * beyond_noise
+    enough = taken_off > OUTLIER_LEFT_SHARE * cost_beyond_noise(state.best.fit)
+    return enough and all(few(one.off) for one in found)
 
 
 def _without(state: SearchState, found: Sequence[_Readings]) -> SearchState:

@@ -38,6 +38,7 @@ from diagnosis.residuals.largest_step import ResidualStep, largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, noted
+from diagnosis.selection.scoring.beyond_noise import cost_beyond_noise
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.sensors.coloured_noise import noise_of_the_best
 from diagnosis.selection.stages.stage import (
@@ -145,7 +146,7 @@ def _largest_jump(state: SearchState, share: float, sensors: Sequence[str]) -> R
 
 
 def _is_enough(step: ResidualStep, one: Candidate, share: float) -> bool:
-    return step.gain > share * (one.fit.cost - one.fit.prior - one.fit.samples)
+    return step.gain > share * cost_beyond_noise(one.fit)
 
 
 def rows_of(problem: FitProblem, sensor: str) -> list[slice]:

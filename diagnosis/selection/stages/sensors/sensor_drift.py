@@ -27,6 +27,7 @@ from diagnosis.residuals.largest_step import largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, RecordEntry, noted
+from diagnosis.selection.scoring.beyond_noise import cost_beyond_noise
 from diagnosis.selection.scoring.drift_evidence import in_noise, score_beside_drift, wide_drifts
 from diagnosis.selection.stages.best import best_without_each_effect
 from diagnosis.selection.stages.sensors.reading_jumps import rows_of
@@ -89,7 +90,7 @@ def _objection(state: SearchState, drifting: SearchState, sensor: str) -> str:
 def promises(state: SearchState, noise: Noise, one: Candidate) -> bool:
     """Whether a drift would take off most of what an explanation leaves beyond noise."""
     taken_off = one.fit.cost - in_noise(one, state.problem, noise).fit.cost
-    return taken_off > DRIFT_SHARE * max(one.fit.cost - one.fit.prior - one.fit.samples, 0.0)
+    return taken_off > DRIFT_SHARE * cost_beyond_noise(one.fit)
 
 
 def _comes_near(state: SearchState, noise: Noise) -> bool:
