@@ -5,6 +5,7 @@ from enum import StrEnum
 from pydantic import model_validator
 
 from models.errors import InvalidValue
+from models.loosening import Loosening
 from models.needle import NonNegative, Positive
 from models.record import Record
 from models.tissue import Interface
@@ -25,6 +26,8 @@ class Drive(Record):
     """Torsion spring between drive shaft and needle; None: rigid."""
     backlash_deg: NonNegative = 0.0
     """Total play between drive shaft and needle."""
+    loosens: Loosening | None = None
+    """Further play, that opens in time; None: there is none."""
     grip_torque_n_mm: Positive | None = None
     """At which the needle slips in the chuck of a servo, either way; None: never."""
     grip_play_deg: Positive | None = None

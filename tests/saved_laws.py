@@ -16,6 +16,7 @@ from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.curve import ActsOn, Course, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.free_parts.free_grip import FreeGrip
+from diagnosis.replay.free_parts.free_play import FreePlay
 from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.variables import Variable
 from models.kerf import Kerf
@@ -55,6 +56,7 @@ EVERYTHING = replace(
     grip=FreeGrip(torque_n_mm=0.5, play_deg=3.0, stiffness_n_mm_per_rad=1.0),
     from_start=(Interface(orientation_n_mm_per_mm=0.01, orientation_cycles=0.1),),
     at_tip=(Interface(viscous_n_mm_s_per_mm=0.1),),
+    plays=(FreePlay(trial="trial_01.csv", play_deg=2.0, from_s=3.0, over_s=0.1),),
     kerfs=(Kerf(torque_n_mm=0.1, travel_mm=5.0),),
 )
 """A law that uses every field."""

@@ -34,6 +34,7 @@ from scipy.integrate import cumulative_trapezoid
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_parts.free_grip import FreeGrip
+from diagnosis.replay.free_parts.free_play import FreePlay
 from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.free_parts.merged import merged
 from diagnosis.replay.sensing.curve_signals import on_gain, on_needle, on_reading
@@ -57,7 +58,17 @@ _TORQUES = (
     "orientation_viscous_n_mm_s_per_mm",
     "orientation_dry_n_mm_per_mm",
 )
-_ADDED = ("curves", "throughout", "from_start", "sections", "at_tip", "at_entry", "in_sheath", "kerfs")
+_ADDED = (
+    "curves",
+    "throughout",
+    "from_start",
+    "sections",
+    "at_tip",
+    "at_entry",
+    "in_sheath",
+    "plays",
+    "kerfs",
+)
 _RECORDS = ("shaft", "grip")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
 _OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_COUNTS, ActsOn.TIP_GAIN)
@@ -87,6 +98,7 @@ class FreeLaw:
       throughout, sections, at_tip, at_entry: additional laws (models.tissue).
       from_start: additional laws like those throughout, whose angle is from where a trial starts.
       in_sheath: additional laws of the free shaft (models.drive).
+      plays: of the chuck, which works loose in a trial.
       kerfs: what holds the tip in the slit that it has cut (models.kerf).
 
     Raises:
@@ -111,6 +123,7 @@ class FreeLaw:
     at_tip: tuple[Interface, ...] = ()
     at_entry: tuple[Interface, ...] = ()
     in_sheath: tuple[Interface, ...] = ()
+    plays: tuple[FreePlay, ...] = ()
     kerfs: tuple[Kerf, ...] = ()
 
     def __post_init__(self) -> None:
@@ -155,6 +168,7 @@ class FreeLaw:
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
             at_entry=tuple(_stronger(law, strength) for law in self.at_entry),
             in_sheath=tuple(_stronger(law, strength) for law in self.in_sheath),
+            plays=tuple(play.times(strength) for play in self.plays),
             kerfs=_kerfs_times(self.kerfs, strength),
         )
 
@@ -168,12 +182,21 @@ class FreeLaw:
 
     def on_trial(self, trial: str) -> "FreeLaw":
         """The parts of the law that apply to one trial."""
-        return self._with(tuple(c for c in self.curves if c.trial in ("", trial)))
+        own = self._with(tuple(c for c in self.curves if c.trial in ("", trial)))
+        if not self.plays:
+            return own
+        return replace(own, plays=tuple(play for play in self.plays if play.trial == trial))
 
-    def begun_at(self, depth_mm: float, angle_deg: float) -> "FreeLaw":
-        """The law in a trial that began at a depth and an angle of the drive shaft."""
+    def begun_at(self, depth_mm: float, angle_deg: float, past_s: float) -> "FreeLaw":
+        """The law in a trial that began at a depth and an angle of the drive shaft.
+
+        Args:
+          past_s: that is simulated before the trial.
+        """
         along = self.along_depth.in_trial(depth_mm)
         begun = self if along is self.along_depth else replace(self, along_depth=along)
+        if self.plays:
+            begun = replace(begun, plays=tuple(play.after(past_s) for play in self.plays))
         if not self.from_start:
             return begun
         turned = (_turned(law, angle_deg) for law in self.from_start)
@@ -195,7 +218,8 @@ class FreeLaw:
 
     def drive(self, drive: Drive) -> Drive:
         """The drive with the law in it."""
-        changed: Drive = self.grip.of(drive).but(in_sheath=self.in_sheath)
+        loosens = self.plays[0].loosening if self.plays else None
+        changed: Drive = self.grip.of(drive).but(in_sheath=self.in_sheath, loosens=loosens)
         return changed
 
     def tissue(self, tissue: Tissue) -> Tissue:

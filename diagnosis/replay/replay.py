@@ -111,7 +111,13 @@ def _run(
         inputs.append(driven(rig, logged, start_s, torque))
     try:
         setups = [
-            rig.setup(nominal, own, elements=elements, step_s=step_s)
+            rig.setup(
+                nominal,
+                own,
+                elements=elements,
+                step_s=step_s,
+                past_s=start_s - float(own.time_s[0]),
+            )
             for rig, own in zip(rigs, inputs, strict=True)
         ]
         return simulate(setups, inputs, keep_shape=keep_shape, callback_alone=callback_alone)

@@ -265,11 +265,23 @@ class RigParameters:
             return self
         return replace(self, pasts=own, clock_starts=clocks, jumps=jumps, free=free)
 
-    def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
-        """The MuJoCo needle for a schedule, as returned by `driven`."""
+    def setup(
+        self,
+        rig: NominalRig,
+        schedule: Schedule,
+        *,
+        elements: int,
+        step_s: float,
+        past_s: float = 0.0,
+    ) -> Setup:
+        """The MuJoCo needle for a schedule, as returned by `driven`.
+
+        Args:
+          past_s: of the schedule, that comes before the trial.
+        """
         shaft = max(schedule.longest_mm, 1.0)
         at_start = float(schedule.inserted_mm[0]), float(schedule.drive[0])
-        begun = self.free.begun_at(*at_start) if self.free else None
+        begun = self.free.begun_at(*at_start, past_s) if self.free else None
         needle, tissue, drive = _parts(self if begun is self.free else replace(self, free=begun), rig)
         standing = schedule.mesh is Mesh.EULERIAN
         inserted = schedule.inserted_mm[0] if standing else shaft - schedule.free_mm[0]

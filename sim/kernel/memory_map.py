@@ -20,6 +20,9 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_ROWS,  # rows of the law table
     H_ORDER,  # of the step: 1 (MuJoCo's own), 2 or 3
     H_BACKLASH,  # half of the play between drive shaft and needle, rad
+    H_LOOSE,  # half of the play that opens in time, rad
+    H_LOOSE_FROM,  # when it begins to, s
+    H_LOOSE_OVER,  # in which it opens, s
     H_GRIP,  # torque at which the needle slips in the chuck, N m; 0: never
     H_PRESLIDING,  # angle at which a dry element slips, rad
     H_RADIUS,  # m
@@ -63,7 +66,7 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_JOINT,  # half of the play of a joint in the shaft, rad; 0: there is none
     H_JOINT_AT,  # element that it is in, and the part of it that is in the next one
     HEADER,
-) = range(48)
+) = range(51)
 STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
 """Of either sign."""
 

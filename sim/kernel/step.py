@@ -146,6 +146,7 @@ def advance(
     mesh: Array,
     law: Array,
     shaft: Shaft,
+    time: float,
     h: float,
     theta: Array,
     rates: Array,
@@ -160,7 +161,7 @@ def advance(
     Args:
       head, mesh, law: the model's numeric fields; law is (rows, columns).
       shaft: the model's needle.
-      h: step, s.
+      time, h: start and length of the step, s.
       theta, rates: of the nodes at the start, rad and rad/s, (n + 1).
       now: state block at the start (sim.kernel.memory_map); MuJoCo owns its angles.
       nxt: state block that receives the end.
@@ -175,7 +176,8 @@ def advance(
     sets, sets_after = view(now, _sets_at(n), (n,)), view(nxt, _sets_at(n), (n,))
     past = view(now, memory_map.B_INPUTS, (memory_map.INPUTS,))
     inputs = inputs_of(head, law, shaft, past, ctrl)
-    frame = frame_of(head, shaft, GAMMAS[int(head[memory_map.H_ORDER]) - 1] * h, inputs)
+    g = GAMMAS[int(head[memory_map.H_ORDER]) - 1] * h
+    frame = frame_of(head, shaft, g, inputs, time + h)
     nonlinear = begin(head, mesh, law, shaft, theta, rates, before, w, frame, inputs)
     hold_sets(w, sets)
     tissue = torques[memory_map.T_TISSUE]

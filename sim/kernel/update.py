@@ -188,7 +188,7 @@ def update(
     second_order = head[memory_map.H_ORDER] != 1.0
     # MuJoCo's rates are means over a step; the method's own are those at its end.
     own = view(now, memory_map.B_ANGLES + m, (m,)) if second_order else rates
-    advance(head, mesh, law, shaft, h, theta, own, now, nxt, ctrl, torques, scratch)
+    advance(head, mesh, law, shaft, time, h, theta, own, now, nxt, ctrl, torques, scratch)
     nxt[memory_map.O_LANDING] = now[memory_map.O_LANDING]
     _add_torques(head, shaft, h, theta, rates, nxt, ctrl, torques, passive)
     if second_order:

@@ -33,6 +33,10 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[memory_map.H_ROWS] = rows
     head[memory_map.H_ORDER] = setup.discretisation.order
     head[memory_map.H_BACKLASH] = 0.5 * setup.drive.backlash_deg * units.DEG
+    if setup.drive.loosens is not None:
+        head[memory_map.H_LOOSE] = 0.5 * setup.drive.loosens.play_deg * units.DEG
+        head[memory_map.H_LOOSE_FROM] = setup.drive.loosens.from_s
+        head[memory_map.H_LOOSE_OVER] = setup.drive.loosens.over_s
     head[memory_map.H_GRIP] = (setup.drive.grip_torque_n_mm or 0.0) * units.N_MM
     stop_deg = setup.drive.grip_play_deg
     head[memory_map.H_STOP] = _NEVER_RAD if stop_deg is None else 0.5 * stop_deg * units.DEG

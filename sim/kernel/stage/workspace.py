@@ -62,15 +62,15 @@ class Frame(NamedTuple):
 
 
 @inlined
-def frame_of(head: Array, shaft: Shaft, g: float, inputs: Inputs) -> Frame:
-    """What does not change during a step with stages of length `g`, s."""
+def frame_of(head: Array, shaft: Shaft, g: float, inputs: Inputs, end: float) -> Frame:
+    """What does not change during a step that ends at a time, s, with stages of length `g`, s."""
     return Frame(
         g,
         inputs.speed / head[memory_map.H_RADIUS],
         head[memory_map.H_ADVECTION] * inputs.speed,
         head[memory_map.H_PRESLIDING],
         shaft.servo,
-        head[memory_map.H_BACKLASH],
+        head[memory_map.H_BACKLASH] + _opened(head, end),
         inputs.tissue,
         head[memory_map.H_GRIP] if shaft.servo > 0.0 else 0.0,
         head[memory_map.H_YIELD],
@@ -82,6 +82,16 @@ def frame_of(head: Array, shaft: Shaft, g: float, inputs: Inputs) -> Frame:
         head[memory_map.H_JOINT],
         head[memory_map.H_JOINT_AT],
     )
+
+
+@inlined
+def _opened(head: Array, time: float) -> float:
+    """Half of the play that has opened until then, rad."""
+    loose = head[memory_map.H_LOOSE]
+    if loose == 0.0:
+        return 0.0
+    share = (time - head[memory_map.H_LOOSE_FROM]) / head[memory_map.H_LOOSE_OVER]
+    return loose * min(max(share, 0.0), 1.0)
 
 
 @inlined

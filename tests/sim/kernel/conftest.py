@@ -87,7 +87,7 @@ def shaft_of(interpreted, arrays_of):
 def at_stage(interpreted, shaft_of):
     """The first stage of a step of a set-up, prepared in the interpreter: law, workspace, frame."""
 
-    def prepared(setup, *, turn_deg=10.0, speed_m_s=0.0, seed=0):
+    def prepared(setup, *, turn_deg=10.0, speed_m_s=0.0, seed=0, end=0.0):
         places = interpreted.memory_map
         law = law_table(setup.needle, setup.drive, setup.tissue, rows=setup.rows)
         head, mesh = header(setup, rows=len(law)), setup.nodes_mm * units.MM
@@ -102,7 +102,7 @@ def at_stage(interpreted, shaft_of):
         lengths = (setup.free_mm * units.MM, setup.inserted_mm * units.MM)
         inputs = interpreted.inputs.Inputs(*lengths, speed_m_s, 1.0, 0.0, 0.0, 0.0, 0.0, False)
         g = interpreted.method.GAMMAS[1] * setup.discretisation.step_s
-        frame = interpreted.workspace.frame_of(head, shaft, g, inputs)
+        frame = interpreted.workspace.frame_of(head, shaft, g, inputs, end)
         nonlinear = interpreted.beginning.begin(
             head, mesh, law, shaft, theta, rates, state, w, frame, inputs
         )

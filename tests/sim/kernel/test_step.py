@@ -62,7 +62,9 @@ def by_the_interpreter(interpreted, shaft, setup, ctrl):
     states = []
     for u in ctrl[1:]:
         start = (now[angles].copy(), now[rates].copy())
-        interpreted.step.advance(head, mesh, law, shaft, 0.01, *start, now, nxt, u, torques, scratch)
+        interpreted.step.advance(
+            head, mesh, law, shaft, 0.0, 0.01, *start, now, nxt, u, torques, scratch
+        )
         states.append(np.concatenate([nxt[angles], nxt[: places.OUTPUTS]]))
         now[:] = nxt
     return np.array(states)

@@ -68,8 +68,8 @@ def test_a_law_of_the_angle_beside_it_is_not_from_the_start():
     """A bent shaft prefers an angle of its own, wherever a trial starts."""
     spring = SPRING.effect.apply(NOMINAL, STIFFNESS, *(0.0,) * SIZE).free
     bent = Interface(orientation_n_mm_per_mm=0.001, orientation_phase_deg=30.0)
-    begun = spring.beside(FreeLaw(throughout=(bent,))).begun_at(0.0, 200.0)
+    begun = spring.beside(FreeLaw(throughout=(bent,))).begun_at(0.0, 200.0, 0.0)
     one, other = begun.throughout
     assert one == bent
     assert other.orientation_phase_deg == pytest.approx(200.0 * other.orientation_cycles)
-    assert begun.begun_at(0.0, 90.0) == begun
+    assert begun.begun_at(0.0, 90.0, 0.0) == begun

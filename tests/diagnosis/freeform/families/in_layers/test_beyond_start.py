@@ -79,8 +79,8 @@ def test_as_strong_as_the_rest_it_is_the_nominal_rig():
 def test_of_a_trial_that_begins_at_the_surface_it_is_all_the_tissue():
     thick = LIBRARY["damping_error"].apply(NOMINAL, 2.0)
     law = FAMILY.effect.apply(NOMINAL, 2.0, NO_FRICTION).free
-    assert law.begun_at(0.0, 0.0).along_depth.thicknesses_mm[0] < 0.01
-    assert law.begun_at(0.0, 0.0).along_depth.damping[-1] == thick.damping_scale
+    assert law.begun_at(0.0, 0.0, 0.0).along_depth.thicknesses_mm[0] < 0.01
+    assert law.begun_at(0.0, 0.0, 0.0).along_depth.damping[-1] == thick.damping_scale
 
 
 def test_the_curve_is_told_on_either_side_of_the_start():
