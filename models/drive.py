@@ -24,6 +24,8 @@ class Drive(Record):
     kind: DriveKind = DriveKind.ANGLE
     stiffness_n_mm_per_rad: Positive | None = None
     """Torsion spring between drive shaft and needle; None: rigid."""
+    unwinding_ratio: Positive = 1.0
+    """Its stiffness where the needle is ahead of the drive, over the other way: of a helical spring."""
     backlash_deg: NonNegative = 0.0
     """Total play between drive shaft and needle."""
     loosens: Loosening | None = None
@@ -47,6 +49,17 @@ class Drive(Record):
     def rubs_in_sheath(self) -> bool:
         """Whether the free shaft is resisted anywhere along it."""
         return self.sheath_friction_n_mm_per_mm > 0 or bool(self.in_sheath)
+
+    @model_validator(mode="after")
+    def _ratio_has_a_spring(self) -> "Drive":
+        if self.unwinding_ratio != 1.0 and self.stiffness_n_mm_per_rad is None:
+            raise InvalidValue(
+                "drive.unwinding_ratio",
+                self.unwinding_ratio,
+                "1, because the drive is rigid either way",
+                "give drive.stiffness_n_mm_per_rad, too",
+            )
+        return self
 
     @model_validator(mode="after")
     def _limit_has_a_motor(self) -> "Drive":

@@ -15,6 +15,7 @@ from diagnosis.freeform.missing.missing import Dependence, Missing
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.curve import ActsOn, Course, Curve
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_coupling import FreeCoupling
 from diagnosis.replay.free_parts.free_grip import FreeGrip
 from diagnosis.replay.free_parts.free_play import FreePlay
 from diagnosis.replay.free_parts.free_shaft import FreeShaft
@@ -53,6 +54,7 @@ EVERYTHING = replace(
         creep_time_s=2.0,
         damping_time_s=0.1,
     ),
+    coupling=FreeCoupling(stiffness_n_mm_per_rad=5.0, unwinding_ratio=0.5),
     grip=FreeGrip(torque_n_mm=0.5, play_deg=3.0, stiffness_n_mm_per_rad=1.0),
     from_start=(Interface(orientation_n_mm_per_mm=0.01, orientation_cycles=0.1),),
     at_tip=(Interface(viscous_n_mm_s_per_mm=0.1),),

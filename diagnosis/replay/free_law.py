@@ -33,6 +33,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_parts.free_coupling import FreeCoupling
 from diagnosis.replay.free_parts.free_grip import FreeGrip
 from diagnosis.replay.free_parts.free_play import FreePlay
 from diagnosis.replay.free_parts.free_shaft import FreeShaft
@@ -69,7 +70,7 @@ _ADDED = (
     "plays",
     "kerfs",
 )
-_RECORDS = ("shaft", "grip")
+_RECORDS = ("shaft", "grip", "coupling")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
 _OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_COUNTS, ActsOn.TIP_GAIN)
 _OF_TISSUE = (ActsOn.TISSUE_ANGLE, ActsOn.TISSUE_SLIP)  # whose turn the tip shows, too
@@ -98,6 +99,7 @@ class FreeLaw:
       throughout, sections, at_tip, at_entry: additional laws (models.tissue).
       from_start: additional laws like those throughout, whose angle is from where a trial starts.
       in_sheath: additional laws of the free shaft (models.drive).
+      coupling: between drive and needle.
       plays: of the chuck, which works loose in a trial.
       kerfs: what holds the tip in the slit that it has cut (models.kerf).
 
@@ -123,6 +125,7 @@ class FreeLaw:
     at_tip: tuple[Interface, ...] = ()
     at_entry: tuple[Interface, ...] = ()
     in_sheath: tuple[Interface, ...] = ()
+    coupling: FreeCoupling = FreeCoupling()  # noqa: RUF009 - frozen
     plays: tuple[FreePlay, ...] = ()
     kerfs: tuple[Kerf, ...] = ()
 
@@ -168,6 +171,7 @@ class FreeLaw:
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
             at_entry=tuple(_stronger(law, strength) for law in self.at_entry),
             in_sheath=tuple(_stronger(law, strength) for law in self.in_sheath),
+            coupling=self.coupling.times(strength),
             plays=tuple(play.times(strength) for play in self.plays),
             kerfs=_kerfs_times(self.kerfs, strength),
         )
@@ -219,7 +223,8 @@ class FreeLaw:
     def drive(self, drive: Drive) -> Drive:
         """The drive with the law in it."""
         loosens = self.plays[0].loosening if self.plays else None
-        changed: Drive = self.grip.of(drive).but(in_sheath=self.in_sheath, loosens=loosens)
+        coupled = self.coupling.of(self.grip.of(drive))
+        changed: Drive = coupled.but(in_sheath=self.in_sheath, loosens=loosens)
         return changed
 
     def tissue(self, tissue: Tissue) -> Tissue:

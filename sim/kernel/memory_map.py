@@ -20,6 +20,7 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_ROWS,  # rows of the law table
     H_ORDER,  # of the step: 1 (MuJoCo's own), 2 or 3
     H_BACKLASH,  # half of the play between drive shaft and needle, rad
+    H_UNWINDING,  # stiffness of the drive where the needle is ahead of it, over that the other way
     H_LOOSE,  # half of the play that opens in time, rad
     H_LOOSE_FROM,  # when it begins to, s
     H_LOOSE_OVER,  # in which it opens, s
@@ -66,7 +67,7 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_JOINT,  # half of the play of a joint in the shaft, rad; 0: there is none
     H_JOINT_AT,  # element that it is in, and the part of it that is in the next one
     HEADER,
-) = range(51)
+) = range(52)
 STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
 """Of either sign."""
 

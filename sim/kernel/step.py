@@ -23,7 +23,7 @@ from sim.kernel.stage.assemble import hardening_energy, hardening_power, is_line
 from sim.kernel.stage.balance import friction, stored_in_shaft
 from sim.kernel.stage.beginning import begin
 from sim.kernel.stage.carry import next_stage
-from sim.kernel.stage.chuck import drive_torque, slack, slipped
+from sim.kernel.stage.chuck import drive_torque, slack, slipped, taken_up
 from sim.kernel.stage.inputs import Inputs, inputs_of
 from sim.kernel.stage.newton import newton
 from sim.kernel.stage.plasticity import carry_sets, hold_sets, keep_sets
@@ -195,9 +195,9 @@ def advance(
         nxt[memory_map.B_INPUTS + j] = ctrl[j]
     heat, kept_energy = keep_sets(w, frame, h, sets, sets_after)
     nxt[memory_map.O_TISSUE_ENERGY] = done.stored + _keep_tissue(head, law, w, frame, inputs, h)
-    taken_up = done.slip + slack(done.ahead - end[0], frame.backlash)
+    unfelt = done.slip + taken_up(done.ahead - end[0], frame)
     chain = head[memory_map.H_CHAIN] != 0.0
-    set_other(chain, shaft, w.spring, w.set, taken_up, end, torques[memory_map.T_OTHER])
+    set_other(chain, shaft, w.spring, w.set, unfelt, end, torques[memory_map.T_OTHER])
     _write(w, frame, inputs, done, heat, now, nxt)
     energy, largest = stored_in_shaft(w, end)
     spring_energy = 0.5 * frame.spring * done.slip * done.slip

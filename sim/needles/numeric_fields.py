@@ -33,6 +33,7 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[memory_map.H_ROWS] = rows
     head[memory_map.H_ORDER] = setup.discretisation.order
     head[memory_map.H_BACKLASH] = 0.5 * setup.drive.backlash_deg * units.DEG
+    head[memory_map.H_UNWINDING] = setup.drive.unwinding_ratio
     if setup.drive.loosens is not None:
         head[memory_map.H_LOOSE] = 0.5 * setup.drive.loosens.play_deg * units.DEG
         head[memory_map.H_LOOSE_FROM] = setup.drive.loosens.from_s

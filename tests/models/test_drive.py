@@ -43,3 +43,9 @@ def test_stops_and_springs_are_those_of_a_chuck_that_slips(field):
 def test_an_unknown_kind_is_answered_with_the_known_ones():
     with pytest.raises(InvalidValue, match=r"kind: expected 'angle' or 'torque', found 'speed'"):
         Drive(kind="speed")
+
+
+def test_a_rigid_drive_is_no_softer_one_way():
+    with pytest.raises(InvalidValue, match="unwinding_ratio"):
+        Drive(unwinding_ratio=0.5)
+    assert Drive(unwinding_ratio=0.5, stiffness_n_mm_per_rad=3.0).unwinding_ratio == 0.5

@@ -65,7 +65,7 @@ def _set_springs(head: Array, shaft: Shaft, w: Workspace, inputs: Inputs) -> Non
 @inlined
 def _is_nonlinear(head: Array, frame: Frame) -> bool:
     """Whether chuck or shaft ask for iteration, whatever the tissue does."""
-    chuck = frame.backlash > 0.0 or frame.grip > 0.0
+    chuck = frame.backlash > 0.0 or frame.grip > 0.0 or frame.unwinding != 1.0
     shaft = head[memory_map.H_STIFFNESS_TORQUE] > 0.0 or frame.yield_torque > 0.0
     return chuck or shaft or frame.creep > 0.0 or frame.joint > 0.0
 

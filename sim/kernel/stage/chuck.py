@@ -1,7 +1,7 @@
 """The drive at the first node: a servo with a chuck, or a motor that gives a torque.
 
-Between servo and needle are play, and a coupling that turns in itself by an angle s where it carries
-more than it grips:
+Between servo and needle are play, a spring, which may be softer as it unwinds (the needle is ahead),
+and a coupling that turns in itself by an angle s where it carries more than it grips:
 
     |torque - spring s| <= grip,    |s| <= stop
 
@@ -27,17 +27,18 @@ def drive_torque(w: Workspace, frame: Frame, drive: float, slip: float = 0.0) ->
         return drive, 0.0
     miss = drive - w.theta[0] - frame.g * w.omega[0]
     engaged = abs(miss) >= frame.backlash
-    torque = frame.servo * (miss - slack(miss, frame.backlash))
+    servo = frame.servo if miss > 0.0 else frame.unwinding * frame.servo
+    torque = servo * (miss - slack(miss, frame.backlash))
     pull = torque - frame.spring * slip
     if frame.grip == 0.0 or abs(pull) <= frame.grip:
-        return torque, frame.g * frame.servo if engaged else 0.0
+        return torque, frame.g * servo if engaged else 0.0
     held = math.copysign(frame.grip, pull)
-    turns = (pull - held) / (frame.servo + frame.spring)
+    turns = (pull - held) / (servo + frame.spring)
     left = max(frame.stop - math.copysign(1.0, pull) * slip, 0.0)
     if abs(turns) > left:
-        return torque - frame.servo * math.copysign(left, pull), frame.g * frame.servo
-    share = frame.spring / (frame.servo + frame.spring)
-    return share * torque + (1.0 - share) * (held + frame.spring * slip), frame.g * frame.servo * share
+        return torque - servo * math.copysign(left, pull), frame.g * servo
+    share = frame.spring / (servo + frame.spring)
+    return share * torque + (1.0 - share) * (held + frame.spring * slip), frame.g * servo * share
 
 
 @inlined
@@ -46,7 +47,15 @@ def slipped(w: Workspace, frame: Frame, drive: float, torque: float, slip: float
     if frame.grip == 0.0 or abs(torque - frame.spring * slip) < frame.grip:
         return 0.0
     miss = drive - w.theta[0] - frame.g * w.omega[0]
-    return miss - slack(miss, frame.backlash) - torque / frame.servo
+    servo = frame.servo if miss > 0.0 else frame.unwinding * frame.servo
+    return miss - slack(miss, frame.backlash) - torque / servo
+
+
+@inlined
+def taken_up(miss: float, frame: Frame) -> float:
+    """What play and a spring that unwinds take up, rad, of an angle: a servo does not feel that part."""
+    left = miss - slack(miss, frame.backlash)
+    return miss - (left if left > 0.0 else frame.unwinding * left)
 
 
 @inlined

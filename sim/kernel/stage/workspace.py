@@ -59,6 +59,7 @@ class Frame(NamedTuple):
     spring: float = 0.0  # that brings it back, N m / rad
     joint: float = 0.0  # half of the play of a joint in the shaft, rad; 0: there is none
     joint_at: float = 0.0  # element that it is in, and the part of it that is in the next one
+    unwinding: float = 1.0  # stiffness of the drive where the needle is ahead of it, over the other way
 
 
 @inlined
@@ -81,6 +82,7 @@ def frame_of(head: Array, shaft: Shaft, g: float, inputs: Inputs, end: float) ->
         head[memory_map.H_SPRING],
         head[memory_map.H_JOINT],
         head[memory_map.H_JOINT_AT],
+        head[memory_map.H_UNWINDING],
     )
 
 

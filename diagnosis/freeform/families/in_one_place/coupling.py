@@ -6,8 +6,9 @@ with the angle a at which it is twice as stiff on average as at first. There the
 
     angle = (2 a / sqrt(3)) sinh(asinh(3 sqrt(3) torque / T) / 3).
 
-A smooth curve over the torque rounds off how fast it gives way about 0. Or one whose spring is linear
-and softens or stiffens, as a smooth curve over the time or what has been turned so far,
+A smooth curve over the torque rounds off how fast it gives way about 0. Or one whose spring is linear,
+and a number of times as stiff as it unwinds, as a helical one is; or that softens or stiffens, as a
+smooth curve over the time or what has been turned so far,
 
     angle = torque / stiffness(t).
 """
@@ -26,6 +27,7 @@ from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.curve import ActsOn, Course, Curve
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_coupling import FreeCoupling
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models import units
@@ -34,6 +36,7 @@ Array = NDArray[np.float64]
 
 _OVER = (Variable.TIME, Variable.HISTORY)
 _ANGLES_DEG, _TORQUES = (2.0, 8.0, 20.0), (0.3, 0.1, 0.02)  # to start with; torques of the largest
+_RATIOS = (0.3, 3.0)  # to start with
 _LEAST_TORQUE, _MOST_TORQUE = 1e-3, 10.0
 _BEYOND = 1.5  # torque that the curve spans / that of the nominal rig
 _PLACES, _CLOSER = 41, 4.0  # of the curve, closer to each other about 0
@@ -45,7 +48,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
         return ()
     most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
     changing = (_changing(v, most_n_mm, ranges) for v in _OVER if v in ranges.ends)
-    return (_hardening(most_n_mm), *changing)
+    return (_hardening(most_n_mm), _helical(most_n_mm, ranges), *changing)
 
 
 def _hardening(most_n_mm: float) -> Family:
@@ -79,6 +82,39 @@ def _hardening(most_n_mm: float) -> Family:
         x_unit=UNITS[Variable.TORQUE],
         unit="deg",
     )
+
+
+def _helical(most_n_mm: float, ranges: LogRanges) -> Family:
+    (stiffness,) = ranges.library["base_compliance"].parameters
+    starts, ratios = zip(*((k, r) for k in stiffness.start for r in _RATIOS), strict=True)
+    ratio = Parameter(
+        name="ratio", unit="-", low=0.02, high=50.0, start=ratios, logarithmic=True, neutral=1.0
+    )
+    return Family(
+        effect=Effect(
+            name="spring that unwinds over torque",
+            title="a coupling between drive and needle that is stiffer one way than the other",
+            place=Place.DRIVE,
+            parameters=(replace(stiffness, start=starts, neutral=None), ratio),
+            apply=_apply_helical,
+        ),
+        places={Place.DRIVE: 1.0},
+        says=Variable.TORQUE,
+        title="angle by which the coupling gives way",
+        curve=partial(_given_way_helically, most_n_mm),
+        x_unit=UNITS[Variable.TORQUE],
+        unit="deg",
+    )
+
+
+def _given_way_helically(most_n_mm: float, stiffness: float, ratio: float) -> Points:
+    torques = most_n_mm * np.array([-1.0, 0.0, 1.0])
+    return torques, torques / stiffness / np.array([ratio, 1.0, 1.0]) / units.DEG
+
+
+def _apply_helical(rig: RigParameters, stiffness: float, ratio: float) -> RigParameters:
+    coupling = FreeCoupling(stiffness_n_mm_per_rad=stiffness, unwinding_ratio=ratio)
+    return replace(rig, free=FreeLaw(coupling=coupling))
 
 
 def _changing(variable: Variable, most_n_mm: float, ranges: LogRanges) -> Family:

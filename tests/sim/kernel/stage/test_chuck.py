@@ -16,6 +16,7 @@ VISCOUS = Tissue.uniform(viscous_n_mm_s_per_mm=0.02)
 SOFT_N_MM_PER_RAD = 0.5
 COUPLINGS = {
     "slips": Drive(grip_torque_n_mm=0.4),
+    "unwinds, and slips": Drive(stiffness_n_mm_per_rad=40.0, unwinding_ratio=0.3, grip_torque_n_mm=0.4),
     "play that rubs": Drive(grip_torque_n_mm=0.4, grip_play_deg=20),
     "spring that rubs": Drive(grip_torque_n_mm=0.4, grip_stiffness_n_mm_per_rad=SOFT_N_MM_PER_RAD),
     "soft, then stiff": Drive(
@@ -52,6 +53,19 @@ def test_inside_its_play_the_chuck_gives_nothing(interpreted, at_stage):
     assert torque == pytest.approx(stage.frame.servo * np.radians(0.1))
 
 
+@pytest.mark.parametrize(("miss_rad", "ratio"), [(0.2, 1.0), (-0.2, 0.25)])
+def test_a_helical_spring_is_softer_as_it_unwinds(interpreted, at_stage, miss_rad, ratio):
+    """40 N mm / rad where the drive is ahead, 10 where the needle is; the rest is taken up unfelt."""
+    stage = at_stage(setup(Drive(stiffness_n_mm_per_rad=40.0, unwinding_ratio=0.25)))
+    drive_rad = stage.w.theta[0] + stage.frame.g * stage.w.omega[0] + miss_rad
+    torque, slope = interpreted.chuck.drive_torque(stage.w, stage.frame, drive_rad)
+    assert torque == pytest.approx(ratio * 0.04 * miss_rad)
+    assert slope == pytest.approx(ratio * 0.04 * stage.frame.g)
+    unfelt = interpreted.chuck.taken_up(miss_rad, stage.frame)
+    assert 0.04 * (miss_rad - unfelt) == pytest.approx(torque)
+    assert stage.nonlinear
+
+
 def coupling(interpreted, at_stage, drive, miss_rad, slip_rad):
     """Torque and slip of a coupling, N mm and rad, and the stage; the servo is ahead by `miss_rad`."""
     stage = at_stage(setup(drive))
@@ -82,7 +96,8 @@ def test_a_coupling_turns_until_it_grips_again_or_comes_to_its_stop(
         assert at_stop or abs(pull) == pytest.approx(drive.grip_torque_n_mm, rel=1e-9, abs=rounding)
         assert pull * (slip - sign * slip_rad) > 0  # the way it is pulled
     left_rad = sign * miss_rad - (slip - sign * slip_rad)
-    assert torque == pytest.approx(1e3 * stage.frame.servo * left_rad, rel=1e-6, abs=1e-6)
+    servo = stage.frame.servo * (drive.unwinding_ratio if sign < 0 else 1.0)
+    assert torque == pytest.approx(1e3 * servo * left_rad, rel=1e-6, abs=1e-6)
 
 
 @pytest.mark.parametrize("name", COUPLINGS)

@@ -16,7 +16,7 @@ from diagnosis.replay.variables import Variable
 
 ANGLE, MOST_N_MM = turns(6.0), 1.0
 ENDS = {Variable.TORQUE: (-0.7 * MOST_N_MM, MOST_N_MM), Variable.TIME: (0.0, 6.0)}
-FAMILY, IN_TIME = families(SimpleNamespace(ends=ENDS, library=LIBRARY))
+FAMILY, HELICAL, IN_TIME = families(SimpleNamespace(ends=ENDS, library=LIBRARY))
 FLAT = [0.0] * (len(IN_TIME.effect.parameters) - 1)
 
 
@@ -36,6 +36,26 @@ def test_its_spring_is_linear_and_cubic(angle_deg, torque_n_mm):
 def test_one_that_hardly_hardens_is_the_spring_of_the_library():
     """Half of the torque at which it is twice as stiff, 50 N mm, over 1000 deg."""
     assert_same_spring(50.0 / np.radians(1000.0), FAMILY.effect.apply(NOMINAL, 1000.0, 100.0))
+
+
+def test_a_helical_one_of_the_same_stiffness_both_ways_is_the_spring_of_the_library():
+    soft, helical = (
+        LIBRARY["base_compliance"].apply(NOMINAL, 3.0),
+        HELICAL.effect.apply(NOMINAL, 3.0, 1.0),
+    )
+    one = prepared(trial(ANGLE))
+    (expected,), (found,) = (predict(RIG, one, [rig]) for rig in (soft, helical))
+    np.testing.assert_array_equal(found.tip_angle_deg, expected.tip_angle_deg)
+    (other,) = predict(RIG, one, [HELICAL.effect.apply(NOMINAL, 3.0, 0.4)])
+    assert np.abs(other.tip_angle_deg - expected.tip_angle_deg).max() > 1.0
+
+
+@pytest.mark.parametrize(("torque_n_mm", "stiffness"), [(0.7, 4.0), (-0.6, 1.6)])
+def test_a_helical_one_has_another_stiffness_as_it_unwinds(torque_n_mm, stiffness):
+    coupling = HELICAL.effect.apply(NOMINAL, 4.0, 0.4).free.coupling
+    assert (coupling.stiffness_n_mm_per_rad, coupling.unwinding_ratio) == (4.0, 0.4)
+    angle_deg = np.degrees(torque_n_mm / stiffness)
+    assert np.interp(torque_n_mm, *HELICAL.curve(4.0, 0.4)) == pytest.approx(angle_deg)
 
 
 @pytest.mark.parametrize("factor", [1.0, 2.0])
