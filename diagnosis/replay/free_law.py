@@ -38,6 +38,7 @@ from diagnosis.replay.free_parts.free_grip import FreeGrip
 from diagnosis.replay.free_parts.free_play import FreePlay
 from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.free_parts.merged import merged
+from diagnosis.replay.free_parts.strength import raised, stronger, stronger_kerfs
 from diagnosis.replay.sensing.curve_signals import on_gain, on_needle, on_reading
 from diagnosis.replay.variables import Variable
 from models.contact import ContactCurve
@@ -51,14 +52,6 @@ Array = NDArray[np.float64]
 
 _LEAST_FACTOR = 1e-3
 _MOST_SIDED = 0.99  # asymmetry
-_TORQUES = (
-    "viscous_n_mm_s_per_mm",
-    "kinetic_n_mm_per_mm",
-    "shared_n_mm_per_mm",
-    "orientation_n_mm_per_mm",
-    "orientation_viscous_n_mm_s_per_mm",
-    "orientation_dry_n_mm_per_mm",
-)
 _ADDED = (
     "curves",
     "throughout",
@@ -162,18 +155,18 @@ class FreeLaw:
             along_depth=self.along_depth.times(strength),
             shaft=self.shaft.times(strength),
             grip=self.grip.times(strength),
-            contact=_raised(self.contact, strength) if self.contact else None,
-            throughout=tuple(_stronger(law, strength) for law in self.throughout),
-            from_start=tuple(_stronger(law, strength) for law in self.from_start),
+            contact=raised(self.contact, strength) if self.contact else None,
+            throughout=tuple(stronger(law, strength) for law in self.throughout),
+            from_start=tuple(stronger(law, strength) for law in self.from_start),
             sections=tuple(
-                own.but(interface=_stronger(own.interface, strength)) for own in self.sections
+                own.but(interface=stronger(own.interface, strength)) for own in self.sections
             ),
-            at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
-            at_entry=tuple(_stronger(law, strength) for law in self.at_entry),
-            in_sheath=tuple(_stronger(law, strength) for law in self.in_sheath),
+            at_tip=tuple(stronger(law, strength) for law in self.at_tip),
+            at_entry=tuple(stronger(law, strength) for law in self.at_entry),
+            in_sheath=tuple(stronger(law, strength) for law in self.in_sheath),
             coupling=self.coupling.times(strength),
             plays=tuple(play.times(strength) for play in self.plays),
-            kerfs=_kerfs_times(self.kerfs, strength),
+            kerfs=stronger_kerfs(self.kerfs, strength),
         )
 
     def beside(self, other: "FreeLaw") -> "FreeLaw":
@@ -312,30 +305,8 @@ class FreeLaw:
         return read[True], read[False]
 
 
-def _stronger(law: Interface, strength: float) -> Interface:
-    """An additional law with its torques multiplied; so is the stiffness of tissue in series with it."""
-    changes = {name: strength * getattr(law, name) for name in _TORQUES}
-    if law.stiffness_n_mm_per_rad_per_mm and strength > 0.0:
-        changes["stiffness_n_mm_per_rad_per_mm"] = strength * law.stiffness_n_mm_per_rad_per_mm
-    stronger: Interface = law.but(**changes)
-    return stronger
-
-
-def _kerfs_times(kerfs: tuple[Kerf, ...], strength: float) -> tuple[Kerf, ...]:
-    """Kerfs with their torque multiplied; none at strength 0."""
-    if strength == 0.0:
-        return ()
-    return tuple(kerf.but(torque_n_mm=strength * kerf.torque_n_mm) for kerf in kerfs)
-
-
 def _turned(law: Interface, angle_deg: float) -> Interface:
     """A law of the angle from another one, deg."""
     phase_deg = law.orientation_phase_deg + law.orientation_cycles * angle_deg
     turned: Interface = law.but(orientation_phase_deg=phase_deg)
     return turned
-
-
-def _raised(curve: ContactCurve, strength: float) -> ContactCurve:
-    """A curve of factors raised to a power."""
-    raised: ContactCurve = curve.but(factors=tuple(factor**strength for factor in curve.factors))
-    return raised
