@@ -47,6 +47,22 @@ def drift_range_sigma(
     return max((float(np.ptp(drift)) for drift in drifts), default=0.0)
 
 
+def drift_in_a_second_sigma(
+    log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]
+) -> float:
+    """Largest change of the drift within a second, in sigma of the sensor."""
+    drifts = _by_trial(log, sensor, noise, predictions)
+    return max(
+        (_change_in_a_second(trial.time_s, own) for trial, own in zip(log.trials, drifts, strict=True)),
+        default=0.0,
+    )
+
+
+def _change_in_a_second(time_s: Array, drift: Array) -> float:
+    later = np.interp(time_s + 1.0, time_s, drift)
+    return float(np.abs(later - drift).max())
+
+
 def drift_spread_sigma(
     log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]
 ) -> float:

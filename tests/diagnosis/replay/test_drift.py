@@ -9,6 +9,7 @@ from diagnosis_fixtures import log_of, problem_of
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.drift import AllowedDrift
 from diagnosis.replay.drift import (
+    drift_in_a_second_sigma,
     drift_range_sigma,
     drift_ranges_sigma,
     drift_sigma,
@@ -136,3 +137,17 @@ def test_a_drift_from_zero_starts_there_and_one_beside_an_offset_does_not(drifti
     assert not starts(offset, sensor, problem.noise, predictions).size  # no drift is allowed for
     (low,), (high,) = (means_sigma(log, sensor, noise, predictions) for log in (problem.log, offset))
     assert high - low == pytest.approx(3.0, abs=0.1)
+
+
+def test_what_it_moves_by_in_a_second_is_found(drifting, sensor):
+    """Of its line, 3 sigma in the whole trial, and of a sine that is faster."""
+    problem, line, predictions = drifting
+    noise = allowing(problem.noise, sensor, 2.0)
+    (trial,) = problem.log.trials
+    seconds = float(np.ptp(trial.time_s))
+    found = drift_in_a_second_sigma(problem.log, sensor, noise, predictions)
+    assert found == pytest.approx(np.ptp(line) / seconds, abs=0.5)
+    wave = 4.0 * np.sin(2.0 * np.pi * trial.time_s / 2.0) * noise[sensor]  # there and back in 2 s
+    (one,) = predictions
+    waving = [replace(one, **{sensor: one[sensor] - wave})]
+    assert drift_in_a_second_sigma(problem.log, sensor, noise, waving) == pytest.approx(8.0, abs=1.5)

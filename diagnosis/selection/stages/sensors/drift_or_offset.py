@@ -20,9 +20,9 @@ from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.scoring.drift_evidence import likeliest_drift, score_beside_drift, wide_drifts
 from diagnosis.selection.stages.sensors.working_sensor import (
     OFFSETS,
-    allowed_sigma,
     begins_off_zero,
     drifts,
+    drifts_too_far,
     is_all_that_is_missing,
     is_off_zero,
     range_sigma,
@@ -87,7 +87,7 @@ def _objection(plain: SearchState, drifting: SearchState, sensor: str) -> str:
 
 
 def _may_be(state: SearchState, sensor: str) -> bool:
-    return range_sigma(state, sensor) <= allowed_sigma(state, sensor)
+    return not drifts_too_far(state, sensor)
 
 
 def _without_what_is_hidden(state: SearchState, sensor: str) -> SearchState:

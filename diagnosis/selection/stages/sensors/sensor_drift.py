@@ -33,8 +33,7 @@ from diagnosis.selection.stages.best import best_without_each_effect
 from diagnosis.selection.stages.sensors.reading_jumps import rows_of
 from diagnosis.selection.stages.sensors.working_sensor import (
     OFFSETS,
-    allowed_sigma,
-    range_sigma,
+    drifts_too_far,
     with_few_effects,
 )
 from diagnosis.selection.stages.stage import fitted_again, leading_on_the_log, leading_sets, screen_all
@@ -81,10 +80,7 @@ def _objection(state: SearchState, drifting: SearchState, sensor: str) -> str:
     """Why a drift with which the log is explained does not count; empty: it does."""
     if _jumps_rather(state, drifting, sensor):
         return "one jump of its readings leaves less"
-    most = range_sigma(drifting, sensor)
-    if most > allowed_sigma(drifting, sensor):
-        return f"{most:.1f} sigma within a trial is more than a sensor's drift"
-    return ""
+    return drifts_too_far(drifting, sensor)
 
 
 def promises(state: SearchState, noise: Noise, one: Candidate) -> bool:

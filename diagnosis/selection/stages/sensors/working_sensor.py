@@ -1,14 +1,14 @@
 """What the drift of a working sensor may be, beside the best explanation of a search.
 
-A drift of more than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of more
-than DRIFT_ALIKE_SIGMA that is the same line in every trial, or than DRIFT_ONE_COURSE_SIGMA that is
-another course, and the same in every trial. Where nothing else is missing, a drift of the tip by more
-than DRIFT_OF_TIP_ALONE_SIGMA, over all trials, is itself what the model lacks; and so is one of the
-torque whose zeros in the trials are further apart than DRIFT_ALIKE_SIGMA and than all that it drifts by
-within them. And it stands beside one effect at most, but for those of the other sensor: with two it
-takes the shape of what no library holds. Nor does it follow the axial speed, the angle of the base
-(torque), or depth, rate, direction or angle of the tip (scoring/followed); and where such a law is
-likelier than a drift, it is none.
+A drift of more than DRIFT_RANGE_SIGMA within a trial, or than DRIFT_QUICKEST_SIGMA within a second, is
+none of a sensor that works; nor is one of more than DRIFT_ALIKE_SIGMA that is the same line in every
+trial, or than DRIFT_ONE_COURSE_SIGMA that is another course, and the same in every trial. Where
+nothing else is missing, a drift of the tip by more than DRIFT_OF_TIP_ALONE_SIGMA, over all trials, is
+itself what the model lacks; and so is one of the torque whose zeros in the trials are further apart than
+DRIFT_ALIKE_SIGMA and than all that it drifts by within them. And it stands beside one effect at most,
+but for those of the other sensor: with two it takes the shape of what no library holds. Nor does it
+follow the axial speed, the angle of the base (torque), or depth, rate, direction or angle of the tip
+(scoring/followed); and where such a law is likelier than a drift, it is none.
 
 Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """
@@ -29,12 +29,14 @@ from diagnosis.criteria.selection import (
     DRIFT_MOST_EFFECTS,
     DRIFT_OF_TIP_ALONE_SIGMA,
     DRIFT_ONE_COURSE_SIGMA,
+    DRIFT_QUICKEST_SIGMA,
     DRIFT_RANGE_SIGMA,
 )
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.drift import (
+    drift_in_a_second_sigma,
     drift_means_apart,
     drift_range_sigma,
     drift_ranges_sum,
@@ -80,6 +82,21 @@ def with_few_effects(state: SearchState, sensor: str, beside: Sequence[str] = ()
 def range_sigma(state: SearchState, sensor: str) -> float:
     """Largest range of the drift beside the best within a trial, in sigma of a reading."""
     return _of_a_reading(state, sensor, drift_range_sigma)
+
+
+def in_a_second_sigma(state: SearchState, sensor: str) -> float:
+    """Largest change of the drift beside the best within a second, in sigma of a reading."""
+    return _of_a_reading(state, sensor, drift_in_a_second_sigma)
+
+
+def drifts_too_far(state: SearchState, sensor: str) -> str:
+    """Why the drift beside the best is too large or quick for a working sensor; empty: it is not."""
+    most, quickest = range_sigma(state, sensor), in_a_second_sigma(state, sensor)
+    if most > allowed_sigma(state, sensor):
+        return f"{most:.1f} sigma within a trial is more than a sensor's drift"
+    if quickest > DRIFT_QUICKEST_SIGMA:
+        return f"{quickest:.1f} sigma within a second is more than a sensor's drift"
+    return ""
 
 
 def spread_sigma(state: SearchState, sensor: str) -> float:

@@ -11,6 +11,7 @@ from diagnosis.criteria.selection import (
     DRIFT_ALIKE_SIGMA,
     DRIFT_OF_TIP_ALONE_SIGMA,
     DRIFT_ONE_COURSE_SIGMA,
+    DRIFT_QUICKEST_SIGMA,
     DRIFT_RANGE_SIGMA,
 )
 from diagnosis.log.trial import SENSORS, TORQUE
@@ -18,6 +19,8 @@ from diagnosis.selection.stages.sensors import working_sensor as module
 from diagnosis.selection.stages.sensors.working_sensor import (
     allowed_sigma,
     drifts,
+    drifts_too_far,
+    in_a_second_sigma,
     is_all_that_is_missing,
     is_off_zero,
     range_sigma,
@@ -157,3 +160,16 @@ def test_a_small_law_is_likelier_than_a_drift_that_takes_it_over(sensor):
     assert what_is_likelier(before, after, sensor) == "axial speed"
     before, after = searched(off(log, sensor, lambda share: 2.0 * share), sensor)
     assert what_is_likelier(before, after, sensor) == ""
+
+
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_what_moves_fast_is_no_drift_however_little_it_moves_in_all(sensor, monkeypatch):
+    """A line of 14 s is slow; as much within a second is none of a sensor that works."""
+    _, after = searched(drifted(3.5, sensor), sensor)
+    # 0.4 of the line, and what noise leaves of its estimate: 0.3 at either end.
+    assert in_a_second_sigma(after, sensor) < 1.5
+    assert drifts_too_far(after, sensor) == ""
+    monkeypatch.setattr(module, "in_a_second_sigma", lambda *_: 1.01 * DRIFT_QUICKEST_SIGMA)
+    assert "within a second" in drifts_too_far(after, sensor)
+    monkeypatch.setattr(module, "range_sigma", lambda *_: 1.01 * DRIFT_RANGE_SIGMA)
+    assert "within a trial" in drifts_too_far(after, sensor)
