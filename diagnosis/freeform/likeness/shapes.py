@@ -167,7 +167,7 @@ OF_ANY = (
     ),
     Shape(
         name="exponential approach",
-        says="settles at {0:.3g}{y}, {1:+.3g}{y} at the beginning, which falls to 37 % over {2:.3g}{x}",
+        says="approaches {0:.3g}{y}: {1:+.3g}{y} off it at first, a factor e less after each {2:.3g}{x}",
         law=_decay,
         start=lambda x, y: (float(y[-1]), float(y[0] - y[-1]), float(0.3 * (x[-1] - x[0]))),
         low=(-np.inf, -np.inf, 0.0),

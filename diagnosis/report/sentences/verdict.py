@@ -90,6 +90,8 @@ def _unknown(found: Diagnosis) -> str:
         else f"which nothing that was tried lowers {UNSEEN} {sigma}"
     )
     nothing = "Unknown: nothing in the library explains the gap, alone or together"
+    if near.effects and found.missing is not None and found.missing.closed:  # a law says more than these
+        return f"{nothing}: residual {before}, at best {left}"
     return f"{nothing}: residual {before}, {least}{_of_all_trials_together(found)}"
 
 

@@ -140,6 +140,19 @@ def test_what_the_sensors_do_beside_the_nearest_explanation_is_told_with_it(dry)
     )
 
 
+def test_where_a_law_closes_the_gap_what_comes_nearest_is_left_to_its_table(dry):
+    """It has the names of the effects, and what the sensors do."""
+    found = concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=())
+    found = replace(found, missing=missing_with())
+    near = found.assessment.nearest
+    told = headline(found)
+    assert told.endswith(
+        f"alone or together: residual {in_sigma(found.assessment.gap.before)}, at best "
+        f"{in_sigma(near.gap_after)} (σ = sensor noise)"
+    )
+    assert titles(near.effects) in headline(replace(found, missing=missing_with(closed=False)))
+
+
 def test_what_would_leave_little_but_does_not_count_is_told_with_its_power(dry):
     far = NoiseFloor(gap=1.01, slow=1.5)
     best = replace(dry.found.verdict.best, floor=far, shift=20.2)
