@@ -129,11 +129,10 @@ def _of_all_trials_together(found: Diagnosis) -> str:
     if not best.named or fitted > _TOGETHER * near.gap_after:
         return ""
     leaves = "leave" if len(best.named) > 1 else "leaves"
-    closed = found.missing is not None and found.missing.closed  # then one rig explains all trials
-    check = ": check whether all were recorded on the same rig, with the same columns"
     return (
         f". {capital(titles(best.named))} {leaves} {in_sigma(fitted)} of all trials together, "
-        f"but predictions from the other trials {in_sigma(near.gap_after)}{'' if closed else check}"
+        f"but predictions from the other trials {in_sigma(near.gap_after)}: check whether all were "
+        "recorded on the same rig, with the same columns"
     )
 
 
