@@ -73,7 +73,7 @@ def _clocks_ran_s(rig: RigParameters, trial: PreparedTrial) -> dict[str, float]:
 def _tip_deg(rig: RigParameters, run: Run) -> Array:
     """Angle of the tip, (N,); that of a run as seen from tissue which has turned in its holder, too."""
     turned = rig.free is not None and rig.free.grip.of_tissue
-    return run.tip_deg + run.slip_deg if turned else run.tip_deg
+    return run.tip_deg + run.shaft_deg - run.base_deg if turned else run.tip_deg
 
 
 def _as_read(

@@ -1,6 +1,6 @@
 """Free laws of the chuck, in which the needle turns where it carries more than a torque.
 
-- it slips; or the tissue does so in its holder, and takes the needle with it
+- it slips; or the tissue does so in its holder, gives before, and takes the needle with it
 - it slips between stops, and a spring brings it back: play that rubs, a coupling that is soft, then
   stiff, one with hysteresis; or the tissue does, a block that is loose in its holder
 
@@ -15,6 +15,7 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_coupling import FreeCoupling
 from diagnosis.replay.free_parts.free_grip import FreeGrip
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
@@ -27,6 +28,7 @@ _COUPLINGS = tuple(
     for play_deg in (2.0, 6.0, 20.0)
     for rub, soft in ((0.02, 0.0), (0.1, 0.0), (0.25, 0.0), (0.5, 0.0), (0.01, 3.0), (0.3, 1.0))
 )  # to start with: friction and spring in these units, and play
+_FIRM = 300.0  # stiffness of a holder over the largest torque, per rad: it gives by 0.2 deg
 _PLACES = {Place.DRIVE: 1.0}
 
 
@@ -36,7 +38,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
         return ()
     most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
     grip, coupling = _grip(most_n_mm), _coupling(most_n_mm)
-    return grip, _holder(grip), coupling, _loose_holder(coupling)
+    return grip, _holder(grip, most_n_mm), coupling, _loose_holder(coupling)
 
 
 def _torque(most_n_mm: float, least: float, starts: Sequence[float]) -> Parameter:
@@ -78,21 +80,37 @@ def _of_tissue(
     return replace(chuck, effect=effect, places={Place.TISSUE: 1.0}, title=told)
 
 
-def _holder(grip: Family) -> Family:
-    return _of_tissue(
+def _holder(grip: Family, most_n_mm: float) -> Family:
+    holder = _of_tissue(
         grip,
         name="slip of the tissue over torque",
-        title="tissue that slips in its holder beyond a torque",
+        title="tissue that slips in its holder beyond a torque, and gives before",
         told="torque at which the tissue turns in its holder",
         apply=_apply_holder,
     )
+    gives = Parameter(
+        name="stiffness",
+        unit="N mm / rad",
+        low=most_n_mm,
+        high=1e4 * most_n_mm,
+        start=(_FIRM * most_n_mm,) * len(_STARTS),
+        logarithmic=True,
+        neutral=math.inf,
+    )
+    effect = replace(holder.effect, parameters=(*holder.effect.parameters, gives))
+    return replace(holder, effect=effect)
 
 
-def _apply_holder(rig: RigParameters, torque: float) -> RigParameters:
-    return replace(rig, free=FreeLaw(grip=FreeGrip(torque_n_mm=torque, of_tissue=True)))
+def _apply_holder(rig: RigParameters, torque: float, stiffness: float) -> RigParameters:
+    gives = None if math.isinf(stiffness) else stiffness
+    law = FreeLaw(
+        grip=FreeGrip(torque_n_mm=torque, of_tissue=True),
+        coupling=FreeCoupling(stiffness_n_mm_per_rad=gives),
+    )
+    return replace(rig, free=law)
 
 
-def _held(torque: float) -> Points:
+def _held(torque: float, *_: float) -> Points:
     return (0.0, 10.0), (torque, torque)
 
 
