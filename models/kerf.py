@@ -23,6 +23,6 @@ class Kerf(Record):
     angle_deg: Positive | None = None
     """Beyond which the torque hardly grows; None: it is a sine."""
     travel_mm: Positive
-    """In which the kerf comes after the tip: a small angle between them fades by a factor e."""
+    """In which the kerf follows the tip: a small angle between them fades by a factor e."""
     backwards: float = Field(default=1.0, ge=0, le=1)
     """Part of the way back that counts; 0: there the tip finds the kerf that it has cut."""

@@ -1,6 +1,8 @@
-"""A chuck that works loose: play that opens while the needle turns, as of a set screw.
+"""A chuck that works loose, as by a set screw: play that opens while the needle turns.
 
-play(t) = play min(max((t - from) / over, 0), 1)
+Between drive shaft and needle, beside the play that is there all the time, there is at time t
+
+    play min(max((t - from) / over, 0), 1)
 """
 
 from models.needle import Positive
@@ -13,6 +15,6 @@ class Loosening(Record):
     play_deg: Positive
     """In all."""
     from_s: float = 0.0
-    """When it begins to open, since the start of the run; before that: it is open."""
+    """When it begins to open, since the start of the run; negative: before that."""
     over_s: Positive = 0.1
     """In which it opens."""
