@@ -14,14 +14,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.effects.effect import Parameter, Place
 from diagnosis.freeform.families.in_time.events import (
-    DIFFERENCES,
     Moment,
     around,
     change_between,
     curves_of,
-    how_and_where,
+    event_family,
     times_of,
     trials_after,
 )
@@ -111,27 +110,21 @@ def in_time(ranges: LogRanges, number: int, *, of_damping: bool = True) -> tuple
 
 def _gives_way(moment: Moment, after: tuple[str, ...]) -> Family:
     """The change; in trials `after` it, it stays."""
-    how, where = how_and_where(moment, after)
     when, lasting = (replace(p, start=2 * p.start) for p in times_of(moment))
     lasting = replace(lasting, high=_LONGEST_S)
     factor = Parameter(
         name="factor", unit="-", low=_LEAST, high=_MOST, start=_START, logarithmic=True, neutral=1.0
     )
-    return Family(
-        effect=Effect(
-            name=f"tissue that gives way, {how}",
-            title=f"tissue that gives way or grips, {how}, {where}",
-            place=Place.TISSUE,
-            parameters=(when, lasting, factor),
-            apply=partial(_apply, moment.trial, after),
-            differences=DIFFERENCES,
-            trial="" if after else moment.trial,
-        ),
+    return event_family(
+        moment,
+        after,
+        what="tissue that gives way",
+        in_words="tissue that gives way or grips",
+        told="torque of the tissue",
         places=_EITHER,
-        says="event",
-        title=f"torque of the tissue {where}",
+        parameters=(when, lasting, factor),
+        apply=partial(_apply, moment.trial, after),
         curve=_changes,
-        x_unit="s",
         unit="-",
     )
 

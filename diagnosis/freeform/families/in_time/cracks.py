@@ -12,14 +12,13 @@ tissue that gives way (changes.py).
 from dataclasses import replace
 from functools import partial
 
-from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.effects.effect import Parameter, Place
 from diagnosis.freeform.families.in_time.changes import changes_of
 from diagnosis.freeform.families.in_time.events import (
-    DIFFERENCES,
     Moment,
     around,
     change_between,
-    how_and_where,
+    event_family,
     times_of,
 )
 from diagnosis.freeform.family import Family, Points
@@ -44,7 +43,6 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 def _cracks(ranges: LogRanges, moment: Moment, after: tuple[str, ...]) -> Family:
     """The spring; in trials `after` that of the crack, it is there from the start."""
-    how, where = how_and_where(moment, after)
     most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
     usual = ranges.missing[TIP] / most_n_mm
     compliance = Parameter(
@@ -57,21 +55,16 @@ def _cracks(ranges: LogRanges, moment: Moment, after: tuple[str, ...]) -> Family
         neutral=None,
     )
     when, lasting = (replace(p, start=len(_STARTS) * p.start) for p in times_of(moment))
-    return Family(
-        effect=Effect(
-            name=f"compliance at the chuck, {how}",
-            title=f"a shaft that cracks near the chuck, or a collet that comes loose, {where}",
-            place=Place.DRIVE,
-            parameters=(when, lasting, compliance),
-            apply=partial(_apply, moment.trial, after, _BEYOND * most_n_mm),
-            differences=DIFFERENCES,
-            trial="" if after else moment.trial,
-        ),
+    return event_family(
+        moment,
+        after,
+        what="compliance at the chuck",
+        in_words="a shaft that cracks near the chuck, or a collet that comes loose",
+        told="compliance at the chuck",
         places=_PLACES,
-        says="event",
-        title=f"compliance at the chuck {where}",
+        parameters=(when, lasting, compliance),
+        apply=partial(_apply, moment.trial, after, _BEYOND * most_n_mm),
         curve=_given_way,
-        x_unit="s",
         unit="deg / N mm",
     )
 

@@ -8,7 +8,7 @@ one at which a step takes most off (residuals/step_time.py).
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -18,7 +18,7 @@ from scipy.linalg import null_space
 from scipy.stats import theilslopes
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.family import FARTHEST, Family, Points, coordinates
+from diagnosis.freeform.family import FARTHEST, Family, Points, coordinates, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.curve import ActsOn, Curve
@@ -119,23 +119,55 @@ def step(
     acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float, after: tuple[str, ...]
 ) -> Family:
     """The step; in trials `after` it, it stays."""
+    return event_family(
+        moment,
+        after,
+        what=title,
+        in_words=title,
+        told=title,
+        places={place: 1.0},
+        parameters=started(times_of(moment), size),
+        apply=partial(_apply, acts_on, moment.trial, after),
+        curve=_stepped,
+        unit=_unit(acts_on),
+    )
+
+
+def event_family(
+    moment: Moment,
+    after: tuple[str, ...],
+    *,
+    what: str,
+    in_words: str,
+    told: str,
+    places: Mapping[Place, float],
+    parameters: tuple[Parameter, ...],
+    apply: Callable[..., RigParameters],
+    curve: Callable[..., Points],
+    unit: str,
+) -> Family:
+    """The family of what happens at a moment, and stays in trials `after` it.
+
+    Args:
+      what, in_words, told: beginnings of its name, of the title of its effect, and of that of its curve.
+    """
     how, where = how_and_where(moment, after)
     return Family(
         effect=Effect(
-            name=f"{title}, {how}",
-            title=f"{title}, {how}, {where}",
-            place=place,
-            parameters=started(times_of(moment), size),
-            apply=partial(_apply, acts_on, moment.trial, after),
+            name=f"{what}, {how}",
+            title=f"{in_words}, {how}, {where}",
+            place=most_probable(places),
+            parameters=parameters,
+            apply=apply,
             differences=DIFFERENCES,
             trial="" if after else moment.trial,
         ),
-        places={place: 1.0},
+        places=places,
         says="event",
-        title=f"{title} {where}",
-        curve=_stepped,
+        title=f"{told} {where}",
+        curve=curve,
         x_unit="s",
-        unit=_unit(acts_on),
+        unit=unit,
     )
 
 

@@ -8,13 +8,12 @@ way (changes.py).
 from dataclasses import replace
 from functools import partial
 
-from diagnosis.effects.effect import Effect, Place
+from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.in_time.changes import changes_of
 from diagnosis.freeform.families.in_time.events import (
-    DIFFERENCES,
     Moment,
     change_between,
-    how_and_where,
+    event_family,
     times_of,
 )
 from diagnosis.freeform.family import Family, Points
@@ -33,24 +32,18 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 def _loosens(ranges: LogRanges, moment: Moment, after: tuple[str, ...]) -> Family:
     """The play; in trials `after` that of the event, it is there from the start."""
-    how, where = how_and_where(moment, after)
     (gap,) = ranges.library["chuck_backlash"].parameters
     when, lasting = (replace(p, start=len(gap.start) * p.start) for p in times_of(moment))
-    return Family(
-        effect=Effect(
-            name=f"play of the chuck, {how}",
-            title=f"a chuck that works loose {where}",
-            place=Place.DRIVE,
-            parameters=(when, lasting, replace(gap, neutral=None)),
-            apply=partial(_apply, moment.trial, after),
-            differences=DIFFERENCES,
-            trial="" if after else moment.trial,
-        ),
+    return event_family(
+        moment,
+        after,
+        what="play of the chuck",
+        in_words="a chuck that works loose",
+        told="play of the chuck",
         places={Place.DRIVE: 1.0},
-        says="event",
-        title=f"play of the chuck {where}",
+        parameters=(when, lasting, replace(gap, neutral=None)),
+        apply=partial(_apply, moment.trial, after),
         curve=_opened,
-        x_unit="s",
         unit="deg",
     )
 
