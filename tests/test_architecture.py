@@ -152,7 +152,7 @@ def test_floats_of_records_carry_their_unit():
                         bare.append(f"{path.stem}.{record.name}.{name}")
     # An effect's parameter, an interval, a jump, a drift, a noise: values of any unit, beside its name.
     own_unit = {"effect.Parameter.low", "effect.Parameter.high", "mapping.ColumnSource.start"}
-    own_unit |= {"rig_parameters.ReadingJump.size", "noise_spectrum._Sized.sigma"}
+    own_unit |= {"reading_errors.ReadingJump.size", "noise_spectrum._Sized.sigma"}
     own_unit |= {"drift.AllowedDrift.size", "mains_hum._Line.size"}
     own_unit |= {f"intervals.Interval.{name}" for name in ("value", "low", "high")}
     assert set(bare) <= own_unit

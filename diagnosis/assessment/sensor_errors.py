@@ -8,7 +8,8 @@ from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.drift import drift_ranges_sigma
 from diagnosis.replay.prediction import Prediction
-from diagnosis.replay.rig_parameters import ClockStart, ReadingJump, RigParameters
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.sensing.reading_errors import ClockStart, ReadingJump
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,13 +19,8 @@ from diagnosis.criteria.prepare import START_SPREAD_DEG
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.replay.rig_parameters import (
-    ClockStart,
-    Past,
-    ReadingJump,
-    RigParameters,
-    SmoothedReading,
-)
+from diagnosis.replay.rig_parameters import Past, RigParameters
+from diagnosis.replay.sensing.reading_errors import ClockStart, ReadingJump, SmoothedReading
 from sim.discretisation import Mesh
 
 # A share between 0 and 1 is as good as open with this standard deviation.

@@ -23,23 +23,21 @@ What its curves act on:
 Dependence on the rate, angle or place of each piece of the shaft is a law of the tissue.
 """
 
-import math
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import cumulative_trapezoid
 
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.curve import Curve
 from diagnosis.replay.free_parts.free_coupling import FreeCoupling
 from diagnosis.replay.free_parts.free_grip import FreeGrip
 from diagnosis.replay.free_parts.free_play import FreePlay
 from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.free_parts.merged import merged
 from diagnosis.replay.free_parts.strength import raised, stronger, stronger_kerfs
-from diagnosis.replay.sensing.curve_signals import on_gain, on_needle, on_reading
+from diagnosis.replay.sensing.curve_sums import OF_SENSORS, driven_by, readings_by
 from diagnosis.replay.variables import Variable
 from models.contact import ContactCurve
 from models.drive import Drive
@@ -50,7 +48,6 @@ from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
 
-_LEAST_FACTOR = 1e-3
 _MOST_SIDED = 0.99  # asymmetry
 _ADDED = (
     "curves",
@@ -65,11 +62,6 @@ _ADDED = (
 )
 _RECORDS = ("shaft", "grip", "coupling")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
-_OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_COUNTS, ActsOn.TIP_GAIN)
-_OF_TISSUE = (ActsOn.TISSUE_ANGLE, ActsOn.TISSUE_SLIP)  # whose turn the tip shows, too
-_RATES = (ActsOn.TISSUE_SLIP, ActsOn.TIP_COUNTS)  # of what a reading gains or loses in a trial
-_GAINS = (ActsOn.TIP_GAIN, ActsOn.TORQUE_GAIN)
-_SENSORS = (ActsOn.DRIVE_TORQUE, ActsOn.TORQUE_READING, *_OF_TIP, ActsOn.TORQUE_GAIN)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -207,7 +199,7 @@ class FreeLaw:
         return self if len(curves) == len(self.curves) else replace(self, curves=curves)
 
     def _of_the_needle(self) -> tuple[Curve, ...]:
-        return tuple(c for c in self.curves if c.acts_on not in _SENSORS)
+        return tuple(c for c in self.curves if c.acts_on not in OF_SENSORS)
 
     def needle(self, needle: Needle) -> Needle:
         """The needle with the law in it."""
@@ -263,46 +255,13 @@ class FreeLaw:
         curves = self._of_the_needle()
         if not curves:
             return inputs
-        found: dict[ActsOn, list[Array]] = {what: [] for what in ActsOn}
-        for curve in curves:
-            found[curve.acts_on].append(on_needle(curve, inputs, start_s, torque_n_mm))
-        one, none = np.ones(inputs.time_s.size), np.zeros(inputs.time_s.size)
-        factor = math.prod(found[ActsOn.TISSUE], start=one)
-        factor = np.maximum(factor / math.prod(found[ActsOn.STIFFNESS], start=one), _LEAST_FACTOR)
-        slip = sum((*found[ActsOn.DRIVE_SLIP], *found[ActsOn.TISSUE_SLIP]), start=none)
-        backwards = sum(found[ActsOn.TISSUE_ANGLE], start=none)
-        backwards = backwards + cumulative_trapezoid(slip, inputs.time_s, initial=0)
-        deeper = sum(found[ActsOn.INSERTED_LENGTH], start=none)
-        deeper = np.clip(deeper, -inputs.inserted_mm, inputs.free_mm)
-        return replace(
-            inputs,
-            drive=sum(found[ActsOn.DRIVE_ANGLE], start=inputs.drive) - backwards,
-            tip_torque_n_mm=inputs.tip_torque_n_mm - sum(found[ActsOn.TIP_TORQUE], start=none),
-            tissue_factor=factor * math.prod(found[ActsOn.ORIENTATION], start=one),
-            inserted_mm=inputs.inserted_mm + deeper,
-            free_mm=inputs.free_mm - deeper,
-        )
+        return driven_by(curves, inputs, start_s, torque_n_mm)
 
     def sensed(
         self, inputs: Schedule, start_s: float, tip_deg: Array, torque_n_mm: Array
     ) -> tuple[Array, Array]:
         """Terms to add to the readings of tip and torque, (N,) each."""
-        read = {True: np.zeros(tip_deg.size), False: np.zeros(torque_n_mm.size)}
-        for curve in self.curves:
-            of_tip = curve.acts_on in (*_OF_TIP, *_OF_TISSUE)
-            own = tip_deg if of_tip else torque_n_mm
-            if curve.acts_on in (ActsOn.STIFFNESS, *_GAINS):
-                more = on_gain(curve, inputs, start_s, own)
-            elif curve.acts_on in _SENSORS:
-                more = on_reading(curve, inputs, start_s, own, tip_deg, torque_n_mm)
-            elif curve.acts_on in _OF_TISSUE:
-                more = on_needle(curve, inputs, start_s, torque_n_mm)
-            else:
-                continue
-            if curve.acts_on in _RATES:
-                more = cumulative_trapezoid(more, inputs.time_s, initial=0)
-            read[of_tip] = read[of_tip] + more
-        return read[True], read[False]
+        return readings_by(self.curves, inputs, start_s, tip_deg, torque_n_mm)
 
 
 def _turned(law: Interface, angle_deg: float) -> Interface:

@@ -15,7 +15,8 @@ from diagnosis.log.trial import SENSORS, TORQUE
 from diagnosis.prepare.low_band import low_passed
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.interpolation import interpolated
-from diagnosis.replay.rig_parameters import RigParameters, SmoothedReading
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.sensing.reading_errors import SmoothedReading
 from diagnosis.replay.sensing.sensors import reads_ahead, sensed, shows_before
 from sim.needles.run import Run
 

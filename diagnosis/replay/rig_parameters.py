@@ -11,6 +11,7 @@ from functools import cached_property, lru_cache
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import BASE
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.sensing.reading_errors import ClockStart, ReadingJump, SmoothedReading
 from models.drive import Drive
 from models.needle import Needle
 from models.tissue import Interface, Layer, Tissue
@@ -34,58 +35,6 @@ class Past:
     trial: str
     wound_deg: float = 0.0
     turned_deg: float = 0.0
-
-
-@dataclass(frozen=True, kw_only=True)
-class ClockStart:
-    """How long the clock of a sensor ran before a trial.
-
-    Attributes:
-      trial: name of the trial.
-      sensor: column of the reading.
-    """
-
-    trial: str
-    sensor: str
-    before_s: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class ReadingJump:
-    """A reading that is off from a moment on: an encoder that lost counts, a gauge that was knocked.
-
-    For the needle, a base that reads more than it turned is a chuck that slipped.
-
-    Attributes:
-      trial: name of the trial.
-      sensor: column of the reading.
-      time_s: first sample that is off.
-      size: by which it is off, in the unit of the column.
-    """
-
-    trial: str
-    sensor: str
-    time_s: float
-    size: float
-
-    @property
-    def unit(self) -> str:
-        """Of the size."""
-        return "deg" if self.sensor.endswith("_deg") else "N mm"
-
-
-@dataclass(frozen=True, kw_only=True)
-class SmoothedReading:
-    """A reading that was smoothed after recording, without delay (`diagnosis/prepare/low_band.py`).
-
-    Attributes:
-      sensor: column of the reading.
-      second_coefficient, fourth_coefficient: of what the filter leaves at low frequencies.
-    """
-
-    sensor: str
-    second_coefficient: float = 0.0
-    fourth_coefficient: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,7 +6,7 @@ from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import TIP, TORQUE
-from diagnosis.replay.rig_parameters import ClockStart, ReadingJump
+from diagnosis.replay.sensing.reading_errors import ClockStart, ReadingJump
 from diagnosis.result import Diagnosis
 
 _SENSORS = {TORQUE: "the torque sensor", TIP: "the tip sensor"}

@@ -6,7 +6,8 @@ from diagnosis.assessment.sensor_errors import sensor_errors
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.log.trial import SENSORS, TIP
 from diagnosis.replay.replay import replay
-from diagnosis.replay.rig_parameters import ClockStart, ReadingJump, RigParameters
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.sensing.reading_errors import ClockStart, ReadingJump
 
 
 def test_errors_are_those_of_the_rig_and_imperfections_those_that_were_fitted():

@@ -21,7 +21,8 @@ from diagnosis.fitting.nuisance import (
 )
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.start.late_start import LateStart
-from diagnosis.replay.rig_parameters import NOMINAL, ClockStart, Past, ReadingJump, SmoothedReading
+from diagnosis.replay.rig_parameters import NOMINAL, Past
+from diagnosis.replay.sensing.reading_errors import ClockStart, ReadingJump, SmoothedReading
 
 STILL = prepared(trial(turns()))
 SLIDING = prepared(trial(turns(), speed=-1.0))

@@ -10,7 +10,8 @@ from diagnosis.prepare.low_band import low_passed
 from diagnosis.prepare.start.late_start import LateStart
 from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.replay import predict
-from diagnosis.replay.rig_parameters import NOMINAL, RigParameters, SmoothedReading
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.sensing.reading_errors import SmoothedReading
 
 
 @pytest.mark.parametrize("sensor", ["tip_angle_deg", "base_torque_n_mm"])

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
-from diagnosis.replay.rig_parameters import NOMINAL, ClockStart, Past, ReadingJump, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, Past, RigParameters
+from diagnosis.replay.sensing.reading_errors import ClockStart, ReadingJump
 from diagnosis.replay.sensing.sensors import driven, sensed
 from sim.schedule import COLUMNS, Schedule
 
@@ -115,4 +116,3 @@ def test_a_jump_is_of_its_trial_and_of_its_sensor_alone():
     assert rig.on_trial("one") is rig
     assert rig.on_trial("two") == NOMINAL
     assert rig.without_sensors == NOMINAL
-    assert (jump.unit, replace(jump, sensor="base_torque_n_mm").unit) == ("deg", "N mm")

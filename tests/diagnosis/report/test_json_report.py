@@ -10,7 +10,7 @@ from free_forms import LAW, VOCABULARY, missing_with
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.log.trial import TIP, TORQUE
-from diagnosis.replay.rig_parameters import ClockStart
+from diagnosis.replay.sensing.reading_errors import ClockStart
 from diagnosis.report.json_report import FORMAT, as_json
 from diagnosis.residuals.lead import Lead
 from diagnosis.selection.record import Decision

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.log.trial import TIP, TORQUE
-from diagnosis.replay.rig_parameters import ClockStart, ReadingJump
+from diagnosis.replay.sensing.reading_errors import ClockStart, ReadingJump
 from diagnosis.report.sensors import imperfections
 
 RATE = Interval(value=0.00183, low=0.0018, high=0.0019, unit="-")

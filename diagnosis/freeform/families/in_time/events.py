@@ -1,7 +1,6 @@
 """An event: an angle or a reading that steps, at an unknown time, fast or slowly.
 
-What has stepped may be back at the start of the next trial, or stay so in all that follow. Or it steps
-once in every trial, by as much to either side, each time at a time of its own.
+What has stepped may be back at the start of the next trial, or stay so in all that follow.
 
 The starting value of the time is from the residual of the nominal rig: of all times of all trials, the
 one at which a step takes most off (residuals/step_time.py).
@@ -14,11 +13,9 @@ from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import null_space
-from scipy.stats import theilslopes
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.family import FARTHEST, Family, Points, coordinates, most_probable
+from diagnosis.freeform.family import Family, Points, coordinates, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.curve import ActsOn, Curve
@@ -32,14 +29,14 @@ Array = NDArray[np.float64]
 _SHORTEST_S, _USUAL_S, _LONGEST_S = 0.01, 0.3, 1.0  # that a step takes
 _MOVES_S = 1.5  # at the most, from where it is looked for first
 _SHOWN_AFTER_S = 2.0  # of the curve of an event
-_SAME = 1e-3  # durations whose range is less, of their mean, are one
 DIFFERENCES = (0.3, 0.1, 3e-2)
 """Steps of derivatives by time, duration and size."""
-_PLACES = {
+STEPS = {
     ActsOn.DRIVE_ANGLE: (TIP, Place.DRIVE, "slip between drive and needle"),
     ActsOn.TIP_READING: (TIP, Place.SENSOR, "jump of the tip sensor"),
     ActsOn.TORQUE_READING: (TORQUE, Place.SENSOR, "jump of the torque sensor"),
 }
+"""What may step: the sensor that shows it, where it lies, and what it is."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,16 +51,13 @@ class Moment:
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Steps of each angle or reading, if the log is long enough."""
     found = []
-    for acts_on, (sensor, place, title) in _PLACES.items():
+    for acts_on, (sensor, place, title) in STEPS.items():
         moments = events(ranges, sensor) if sensor in ranges.missing else ()
         if moments:
             largest, size = moments[0], max(ranges.missing[sensor], ranges.problem.noise[sensor])
             found.append(step(acts_on, place, title, largest, size, ()))
             if after := trials_after(ranges, largest):
                 found.append(step(acts_on, place, title, largest, size, after))
-            if len(moments) > 1:
-                each = _EveryTrial.at(moments, ranges)
-                found.append(_steps(acts_on, place, title, each, largest, size))
     return tuple(found)
 
 
@@ -128,8 +122,8 @@ def step(
         places={place: 1.0},
         parameters=started(times_of(moment), size),
         apply=partial(_apply, acts_on, moment.trial, after),
-        curve=_stepped,
-        unit=_unit(acts_on),
+        curve=stepped,
+        unit=unit_of(acts_on),
     )
 
 
@@ -180,11 +174,13 @@ def started(parameters: Sequence[Parameter], size: float) -> tuple[Parameter, ..
     return (*(replace(p, start=2 * p.start) for p in each), own)
 
 
-def _unit(acts_on: ActsOn) -> str:
+def unit_of(acts_on: ActsOn) -> str:
+    """Of what steps."""
     return "N mm" if acts_on is ActsOn.TORQUE_READING else "deg"
 
 
-def _stepped(time_s: float, duration_s: float, step: float) -> Points:
+def stepped(time_s: float, duration_s: float, step: float) -> Points:
+    """The curve of a step from 0, from the start of its trial."""
     return change_between(time_s, duration_s, 0.0, step)
 
 
@@ -210,112 +206,6 @@ def _apply(
 ) -> RigParameters:
     curves = curves_of(acts_on, trial, after, around(time_s, duration_s), (0.0, step))
     return replace(rig, free=FreeLaw(curves=curves))
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class _EveryTrial:
-    """An event in every trial: its times are a straight line over the durations, and what is off it.
-
-    Attributes:
-      trials: their names, (n,).
-      found_s: when it was found in each, (n,).
-      ways: 1 where it steps as in the first of these, -1 where it steps the other way, (n,).
-      line: times of a line by its parameters, (n, 1 or 2): a time, and more in longer trials.
-      off_line: times by the other coordinates, orthogonal to these, (n, n - 1 or 2).
-    """
-
-    trials: tuple[str, ...]
-    found_s: Array
-    ways: Array
-    line: Array
-    off_line: Array
-
-    @classmethod
-    def at(cls, moments: Sequence[Moment], ranges: LogRanges) -> "_EveryTrial":
-        """The events, as they were found."""
-        log = {trial.name: trial for trial in ranges.problem.log.trials}
-        lasting = np.array([np.ptp(log[m.trial].time_s) for m in moments])
-        longer = lasting / lasting.mean() - 1.0
-        columns = [np.ones(longer.size), *([longer] if np.ptp(longer) > _SAME else [])]
-        return cls(
-            trials=tuple(m.trial for m in moments),
-            found_s=np.array([m.time_s for m in moments]),
-            ways=np.array([m.way * moments[0].way for m in moments]),
-            line=np.stack(columns, axis=1),
-            off_line=null_space(np.stack(columns)),
-        )
-
-    @property
-    def parameters(self) -> tuple[Parameter, ...]:
-        """Coordinates of the times; they start where events were found, and from a line through most."""
-        own, *_ = np.linalg.lstsq(self.line, self.found_s, rcond=None)
-        line = (
-            Parameter(
-                name=name, unit="s", low=least, high=most, start=(exact, robust), neutral=None, scale=1.0
-            )
-            for name, exact, robust in zip(("time", "longer"), own, self._robust_line(), strict=False)
-            for least, most in [(min(exact, robust) - FARTHEST, max(exact, robust) + FARTHEST)]
-        )
-        found = self.off_line.T @ self.found_s
-        off = zip(coordinates(0, found.size), found, strict=True)
-        return (*line, *(_starting_at(p, float(found)) for p, found in off))
-
-    def _robust_line(self) -> tuple[float, ...]:
-        if self.line.shape[1] == 1:
-            return (float(np.median(self.found_s)),)
-        theil_sen = theilslopes(self.found_s, self.line[:, 1])
-        return float(theil_sen.intercept), float(theil_sen.slope)
-
-    def times_s(self, c: Sequence[float]) -> Array:
-        """When it is in each trial."""
-        own = np.concatenate([self.line, self.off_line], axis=1)
-        return np.asarray(np.maximum(own @ np.array(c), 0.0))
-
-
-def _starting_at(parameter: Parameter, found: float) -> Parameter:
-    """A coordinate that starts from what was found, or from none, with its range about both."""
-    low, high = parameter.low + min(found, 0.0), parameter.high + max(found, 0.0)
-    return replace(parameter, start=(found, 0.0), low=low, high=high, neutral=None)
-
-
-def _steps(
-    acts_on: ActsOn, place: Place, title: str, each: _EveryTrial, usual: Moment, size: float
-) -> Family:
-    """A step once in every trial."""
-    _, lasting = times_of(usual)
-    name = f"{title} once in every trial"
-    return Family(
-        effect=Effect(
-            name=name,
-            title=name,
-            place=place,
-            parameters=started((lasting, *each.parameters), size),
-            apply=partial(_apply_to_each, acts_on, each),
-            differences=DIFFERENCES,
-        ),
-        places={place: 1.0},
-        says="event",
-        title=name,
-        curve=partial(_stepped_first, each),
-        x_unit=f"s of {each.trials[0]}",
-        unit=_unit(acts_on),
-    )
-
-
-def _stepped_first(each: _EveryTrial, duration_s: float, *c: float) -> Points:
-    *times, step = c
-    return _stepped(float(each.times_s(times)[0]), duration_s, step)
-
-
-def _apply_to_each(
-    acts_on: ActsOn, each: _EveryTrial, rig: RigParameters, duration_s: float, *c: float
-) -> RigParameters:
-    *times, step = c
-    steps = (
-        curves_of(acts_on, trial, (), around(float(time_s), duration_s), (0.0, float(way) * step))
-        for trial, time_s, way in zip(each.trials, each.times_s(times), each.ways, strict=True)
-    )
-    return replace(rig, free=FreeLaw(curves=tuple(curve for one in steps for curve in one)))
 
 
 def curves_of(

@@ -33,7 +33,7 @@ from diagnosis.fitting.nuisance import reading_jump
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import BASE, SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial
-from diagnosis.replay.rig_parameters import ReadingJump
+from diagnosis.replay.sensing.reading_errors import ReadingJump
 from diagnosis.residuals.largest_step import ResidualStep, largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all

@@ -12,7 +12,8 @@ from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import BASE, Trial
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.replay import predict
-from diagnosis.replay.rig_parameters import NOMINAL, ReadingJump, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.sensing.reading_errors import ReadingJump
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages.nominal_rig import nominal_rig
