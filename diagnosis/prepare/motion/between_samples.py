@@ -72,8 +72,12 @@ def _turn_corners(
 
 
 def _hold_between(base_deg: Array, rate: Array, angles: Array) -> None:
-    """Keep the angles, (N - 1, parts), between their two samples where rates before and after agree."""
-    turns = np.pad(rate[:-2] * rate[2:] < 0, 1)
+    """Keep the angles, (N - 1, parts), between their two samples unless the rates at these differ in sign.
+
+    The rate before may be large and that after, of a base that has arrived, anything near 0.
+    """
+    at_sample = rate[:-1] + rate[1:]  # twice
+    turns = np.pad(at_sample[:-1] * at_sample[1:] < 0, 1)
     low = np.where(turns, -np.inf, np.minimum(base_deg[:-1], base_deg[1:]))
     high = np.where(turns, np.inf, np.maximum(base_deg[:-1], base_deg[1:]))
     np.clip(angles, low[:, None], high[:, None], out=angles)

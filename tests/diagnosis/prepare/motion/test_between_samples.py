@@ -74,3 +74,12 @@ def test_it_stays_between_two_samples_unless_it_turns_there():
     _, turned = between_samples(at, back)
     assert turned.max() > back.max() + 0.05  # the top is 0.125 deg above its samples
     assert time.size > at.size
+
+
+@pytest.mark.parametrize("after_deg", [-1e-4, 0.0, 1e-4])
+def test_a_fast_turn_that_has_ended_just_after_a_sample_does_not_reach_beyond_where_it_ends(after_deg):
+    """Whichever way what is left of the noise goes at rest: dry friction would remember the reversal."""
+    at = STEP_S * np.arange(40)
+    read = np.minimum(230.0 * at, 106.2) + after_deg * np.maximum(at - 0.5, 0.0) / STEP_S
+    _, angle = between_samples(at, read)
+    assert angle.max() <= read.max() + 1e-9
