@@ -11,7 +11,7 @@ from diagnosis.fitting.held_out.words import ONLY_TRIAL, UNSEEN
 from diagnosis.freeform.missing.in_words import what_is_missing
 from diagnosis.in_sigma import in_sigma
 from diagnosis.report.sensors import told_of_sensors
-from diagnosis.report.sentences.names import explanation_name, explanations, titles
+from diagnosis.report.sentences.names import explanation_name, explanations, same_constants, titles
 from diagnosis.report.sentences.verdict import headline
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
@@ -54,6 +54,7 @@ def _sure_of_one(found: Diagnosis) -> str:
 def _beside(found: Diagnosis) -> str:
     """What no reading of this log can tell from what is named."""
     others = [titles(names) for names in found.verdict.confusable[1:]]
+    others += same_constants(found)
     return f"; no reading of this log distinguishes it from {', or '.join(others)}" if others else ""
 
 

@@ -19,6 +19,14 @@ def remedies(effects: Sequence[str], parameters: Parameters, rig: NominalRig) ->
     return "; ".join(_remedy(LIBRARY[name], parameters.get(name, {}), rig) for name in effects)
 
 
+def constants_that_do_the_same(
+    effects: Sequence[str], parameters: Parameters, rig: NominalRig
+) -> tuple[str, ...]:
+    """What of the rig, that no effect stands for, would do exactly what one of the effects does."""
+    each = ((LIBRARY[name], parameters.get(name, {})) for name in effects)
+    return tuple(_same(effect, own, rig) for effect, own in each if effect.same_as and own)
+
+
 def check_that_tells(sets: Sequence[Sequence[str]]) -> str:
     """A separate measurement that tells sets of effects apart: of an effect that only one set has.
 
@@ -37,12 +45,17 @@ def _remedy(effect: Effect, own: Mapping[str, Interval], rig: NominalRig) -> str
     words = {name: in_words(interval) for name, interval in own.items()}
     if effect.corrects and own:
         words["constant"] = f"{_nominal(effect, rig) * next(iter(own.values())).value:.4g}"
-    if effect.same_as and own:
-        words["same"] = effect.same_as(rig, *(interval.value for interval in own.values()))
+    words["same"] = _same(effect, own, rig)
     try:
         return effect.remedy.format_map(words) or f"put into the model: {effect.title}"
     except KeyError:  # a parameter that was not fitted
         return f"put into the model: {effect.title}"
+
+
+def _same(effect: Effect, own: Mapping[str, Interval], rig: NominalRig) -> str:
+    if effect.same_as is None or not own:
+        return ""
+    return effect.same_as(rig, *(interval.value for interval in own.values()))
 
 
 def _nominal(effect: Effect, rig: NominalRig) -> float:

@@ -72,9 +72,9 @@ def _turn_corners(
 
 
 def _hold_between(base_deg: Array, rate: Array, angles: Array) -> None:
-    """Keep the angles, (N - 1, parts), between their two samples unless the rates at these differ in sign.
+    """Keep the angles, (N - 1, parts), between two samples unless the rates at these differ in sign.
 
-    The rate before may be large and that after, of a base that has arrived, anything near 0.
+    The rate before may be large, and that after, of a base that has arrived, anything near 0.
     """
     at_sample = rate[:-1] + rate[1:]  # twice
     turns = np.pad(at_sample[:-1] * at_sample[1:] < 0, 1)

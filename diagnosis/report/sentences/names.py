@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from diagnosis.assessment.advice.remedies import constants_that_do_the_same
 from diagnosis.criteria.assessment import SHOWN_PROBABILITY
 from diagnosis.effects import LIBRARY
 from diagnosis.result import Diagnosis
@@ -12,6 +13,11 @@ def titles(effects: Sequence[str]) -> str:
     """Effects in plain words."""
     *others, last = [LIBRARY[name].title for name in effects] or [""]
     return f"{', '.join(others)} and {last}" if others else last
+
+
+def same_constants(found: Diagnosis) -> tuple[str, ...]:
+    """Constants of the rig that would do exactly what an accepted effect does, were they off."""
+    return constants_that_do_the_same(found.verdict.effects, found.assessment.parameters, found.log.rig)
 
 
 def explanations(found: Diagnosis) -> list[tuple[str, float]]:

@@ -7,7 +7,7 @@ from diagnosis.fitting.held_out.words import UNSEEN
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.report.sensors import told_of_sensors
-from diagnosis.report.sentences.names import capital, titles
+from diagnosis.report.sentences.names import capital, same_constants, titles
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
 
@@ -139,9 +139,12 @@ def _of_all_trials_together(found: Diagnosis) -> str:
 def alike(found: Diagnosis) -> str:
     """What the accepted effects cannot be told from, in one sentence; else empty."""
     verdict = found.verdict
-    if verdict.kind is not VerdictKind.EXPLAINED or not verdict.confusable:
+    if verdict.kind is not VerdictKind.EXPLAINED:
         return ""
-    others = "; or ".join(titles(names) for names in verdict.confusable[1:])
+    sets = [titles(names) for names in verdict.confusable[1:]]
+    others = "; or ".join([*sets, *same_constants(found)])
+    if not others:
+        return ""
     return (
         f"Cannot be told from: {others}. These change the readings of this log in the same way, or "
         "nearly so; the named cause is the likeliest one, not the only one"

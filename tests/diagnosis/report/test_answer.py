@@ -5,10 +5,12 @@ from dataclasses import replace
 import pytest
 from free_forms import missing_with
 
+from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.freeform.missing.in_words import what_is_missing
+from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.report.answer import answer
 from diagnosis.report.sentences.names import titles
-from diagnosis.report.sentences.verdict import headline
+from diagnosis.report.sentences.verdict import alike, headline
 from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import EarlyStop
 
@@ -65,6 +67,22 @@ def test_what_may_be_there_beside_nothing_is_in_the_second_sentence(dry):
     assert sure.endswith(
         f"no reading of this log distinguishes it from {titles(('coulomb_friction',))}."
     )
+
+
+def test_a_constant_that_would_do_the_same_is_in_the_second_sentence_and_beside_the_alternatives(dry):
+    """A free shaft that is longer by its rigidity / stiffness is the same spring."""
+    rigidity = NOMINAL.needle(dry.found.log.rig).rigidity_n_mm2
+    stiffness = Interval(
+        value=rigidity / 12.0, low=0.9 * rigidity, high=1.1 * rigidity, unit="N mm / rad"
+    )
+    spring = concluding(dry.found, effects=("base_compliance",), confusable=())
+    parameters = {"base_compliance": {"stiffness": stiffness}}
+    spring = replace(spring, assessment=replace(spring.assessment, parameters=parameters))
+    longer = "a free shaft that is 12 mm longer than logged"
+    _, sure, _ = answer(spring)
+    assert sure.endswith(f"; no reading of this log distinguishes it from {longer}.")
+    assert alike(spring).startswith(f"Cannot be told from: {longer}. ")
+    assert "longer" not in " ".join(answer(dry.found))
 
 
 @pytest.mark.parametrize(
