@@ -189,9 +189,9 @@ class Candidate:
     def named(self) -> tuple[str, ...]:
         """Its effects, and stiffness or damping of the rig where they are off by too much.
 
-        Beside effects that is more than scatter explains. Alone it is whatever is
+        Beside effects that is more than scatter explains. Without any it is whatever is
         certain: the nominal rig does not fit, and this is why. Imperfections of sensors
-        are not named.
+        are no effects, and not named.
         """
         own = (name for name in self.names if name in LIBRARY)
         return (*own, *self.scatter_named)
@@ -224,7 +224,7 @@ class Candidate:
         return bool(off) and float(np.abs(away).sum()) > SCATTER_LEAST
 
     def _is_off(self, name: str) -> bool:
-        if self.names:
+        if any(other in LIBRARY for other in self.names):
             return abs(self._scatters(name)) > SCATTER_NAMED or self._off_alike
         away, spread = scatter_of(self.fit)
         entry = open_scatter(self.fit).index(name)

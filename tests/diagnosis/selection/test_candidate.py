@@ -121,6 +121,14 @@ def test_a_constant_that_is_off_for_certain_is_named_alone():
     assert off_by(0.002, 0.0).named == ()  # certain, and less than two simulations differ by
 
 
+def test_beside_an_imperfection_of_a_sensor_a_constant_is_named_as_alone():
+    """A clock that drifts is no reason to doubt a stiffness that is off for certain."""
+    off = off_by(0.022, 0.0, names=("tip_clock",))
+    assert off.named == ("stiffness_error",)
+    assert off_by(0.002, 0.0, names=("tip_clock",)).named == ()
+    assert off_by(0.022, 0.0, names=("tip_drag",)).named == ("tip_drag",)
+
+
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_beside_an_effect_a_constant_is_named_beyond_its_scatter(sign):
     """The scatter is a fraction of the constant, whose logarithm is fitted."""
