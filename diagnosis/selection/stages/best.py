@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.criteria.freeform import FAR_GAP, PLAINER_LEAVES, PLAINER_SETS
 from diagnosis.criteria.selection import CONTENDING, FINALISTS, SIMPLE_LEAD
 from diagnosis.effects.effect import Parameter
@@ -15,6 +16,9 @@ from diagnosis.fitting.fit_status import Termination
 from diagnosis.selection.fitting import fit_all, fit_beside
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
+
+BOTH_ALIKE = "torque_scale"
+"""The effect that no log tells from stiffness and damping that are off by the same."""
 
 
 def best_to_its_end(state: SearchState, workers: Workers) -> SearchState:
@@ -89,7 +93,8 @@ def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
     """What leading sets name of stiffness and damping, without the prior of scatter that pulls it.
 
     That is the best, and those at the noise floor that this prior alone keeps behind it. Where the best
-    would stay above the noise without the prior, there is nothing to ask.
+    would stay above the noise without the prior, there is nothing to ask. Where both are named, the gain
+    of the torque sensor, which is both off alike, stands in their place as well.
     """
     best = state.best
     if _gap_without_prior(best.fit, best.scatter_named) > best.floor.gap_limit:
@@ -100,10 +105,12 @@ def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
     known = {frozenset(c.names) for c in state.candidates}
     calls: dict[frozenset[str], tuple[Any, ...]] = {}
     for one in sorted(near, key=lambda c: c.score)[:FINALISTS]:
-        names = (*one.names, *one.scatter_named)
-        if frozenset(names) not in known:
-            start = state.problem.parameterization(names).joined(one.fit.parts)
-            calls.setdefault(frozenset(names), (state.problem, names, start))
+        both = len(one.scatter_named) == len(SCATTER)
+        for more in (one.scatter_named, (BOTH_ALIKE,)) if both else (one.scatter_named,):
+            names = tuple(dict.fromkeys((*one.names, *more)))
+            if frozenset(names) not in known:
+                start = state.problem.parameterization(names).joined(one.fit.parts)
+                calls.setdefault(frozenset(names), (state.problem, names, start))
     return state.adding(fit_all("scatter of the best", [*calls.values()], workers))
 
 

@@ -5,14 +5,16 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import concluded, fit_of, log_of, scored, start_of_search
+from diagnosis_fixtures import concluded, fit_of, log_of, problem_of, scored, start_of_search
 
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.criteria.selection import CONTENDING
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.fitting.parameterization import parameterization_of
-from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.replay import replay
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection import candidate, checked
 from diagnosis.selection.search import search
 from diagnosis.selection.stages import best as module
@@ -144,6 +146,33 @@ def test_scatter_is_freed_only_where_its_prior_may_be_what_keeps_the_best_above_
     best = off(("tip_drag",), gap=np.sqrt(1.02**2 + 100.0 / 1000), gain=gain)
     module.scatter_of_the_best(found_by_then(best), Workers())
     assert asked == [("tip_drag", "stiffness_error")][:fitted]
+
+
+def off_alike(*names):
+    """A candidate whose stiffness and damping are off by 5 %, and told as sharply."""
+    told = np.random.default_rng(3).normal(0, 1e3, (10, 2))
+    rows = np.hstack([np.zeros((10, len(names))), told])
+    x = np.array([*(-3.0 for _ in names), 0.05, 0.05])
+    scales = tuple(LIBRARY[name] for name in SCATTER)
+    fit = fit_of(names, x=x, jacobian=[rows], by_trial=[np.zeros(10)], nuisance=scales)
+    return replace(scored(names, 1.0), fit=fit)
+
+
+def test_where_both_are_off_the_gain_that_is_both_alike_is_fitted_in_their_place_as_well(asked):
+    best = off_alike("tip_drag")
+    assert best.scatter_named == tuple(SCATTER)
+    module.scatter_of_the_best(found_by_then(best), Workers())
+    assert asked == [("tip_drag", *SCATTER), ("tip_drag", module.BOTH_ALIKE)]
+
+
+def test_the_gain_that_is_both_alike_reads_as_stiffness_and_damping_that_are_off_by_the_same():
+    """Torque is proportional to both, and inertia is small."""
+    gain = LIBRARY[module.BOTH_ALIKE].apply(NOMINAL, 1.05)
+    both = replace(NOMINAL, stiffness_scale=1.05, damping_scale=1.05)
+    log = problem_of(log_of(NOMINAL)).log
+    for one, other in zip(replay(log, gain), replay(log, both), strict=True):
+        for sensor, noise in (("tip_angle_deg", 0.01), ("base_torque_n_mm", 1e-3)):
+            np.testing.assert_allclose(one[sensor], other[sensor], atol=noise)
 
 
 def left(gap, *names):
