@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.sensor_levels import CORNER, FAR, LevelLaw, odd
+from diagnosis.freeform.templates.sensor_levels import CORNER, FAR, LevelLaw, odd
 
 Array = NDArray[np.float64]
 

@@ -5,9 +5,9 @@ import pytest
 from diagnosis_fixtures import RIG, turns
 from free_forms import covered, same_readings
 
-from diagnosis.effects import IMPERFECTIONS, LIBRARY
+from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.families.readings import PAST_PLACES, families
+from diagnosis.freeform.families.readings import families
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(6.0)
@@ -39,24 +39,6 @@ def test_a_constant_error_of_the_tip_sensor_is_its_bias(variable):
 def test_a_constant_error_of_the_torque_is_its_bias(name):
     bias = LIBRARY["torque_bias"].apply(NOMINAL, 0.2)
     assert same_readings(ANGLE, rig_of(name, 0.2), bias)
-
-
-def test_an_error_that_rises_with_the_reading_is_a_gain():
-    """From end to end of the range of the nominal tip, a straight line through 0 with slope 0.1."""
-    low, high = RANGES.ends["tip_angle"]
-    middle, half = 0.05 * (high + low), 0.05 * (high - low)
-    gained = LIBRARY["tip_angle_scale"].apply(NOMINAL, 1.1)
-    found = rig_of("tip reading over tip_angle", middle, half)
-    # Beyond the range of the nominal tip the curve is level: the simulated tip stays within it here.
-    assert same_readings(0.5 * ANGLE, found, gained)
-
-
-def test_all_of_the_torque_behind_a_time_constant_is_a_low_pass():
-    name = "torque reading over past"
-    places, _ = FAMILIES[name].curve(*[0.0] * PAST_PLACES)
-    late = IMPERFECTIONS["torque_low_pass"].apply(NOMINAL, float(places[2]))
-    assert same_readings(ANGLE, rig_of(name, 0.0, 0.0, 1.0), late)
-    assert not same_readings(ANGLE, rig_of(name, 0.0, 1.0), late)
 
 
 def test_an_offset_of_the_drive_turns_the_whole_needle():
@@ -102,14 +84,6 @@ def test_what_repeats_says_after_how_much():
     ]
 
 
-def test_coordinates_are_as_large_as_what_is_missing():
-    assert RANGES.missing == pytest.approx({"tip_angle_deg": 2.0, "base_torque_n_mm": 0.3})
-    scale = {name: family.effect.parameters[0].scale for name, family in FAMILIES.items()}
-    assert scale["tip reading over time"] == pytest.approx(2.0)
-    assert scale["torque reading over time"] == pytest.approx(0.3)
-    assert scale["tip reading over past"] == 1.0  # a share
-
-
 def test_a_sensor_that_was_not_read_has_no_law():
     names = {family.name for family in families(covered(ANGLE, tip=ANGLE))}
     assert names
@@ -132,13 +106,6 @@ def test_a_gain_that_does_not_change_is_a_wrong_gain():
         assert same_readings(ANGLE, rig_of(f"{name} gain over time", np.log(1.1)), gained)
         _, factors = FAMILIES[f"{name} gain over time"].curve(np.log(1.1), *[0.0] * 11)
         np.testing.assert_allclose(factors, 1.1)
-
-
-def test_a_hysteresis_is_told_over_what_has_changed_since_it_turned_back():
-    units = {name: one.x_unit for name, one in FAMILIES.items() if name.endswith("over turned_by")}
-    assert units.pop("torque reading over turned_by") == "N mm"
-    assert units
-    assert set(units.values()) == {"deg"}
 
 
 @pytest.mark.parametrize("more", ["", ", every 360 deg"])

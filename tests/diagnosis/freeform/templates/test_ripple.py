@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from free_forms import covered
 
-from diagnosis.freeform.ripple import MOST_WAVES, waves_in_a_turn
+from diagnosis.freeform.templates.ripple import MOST_WAVES, waves_in_a_turn
 from diagnosis.replay.variables import Variable
 
 ANGLE = np.interp(np.arange(0, 20, 0.01), [0, 2, 16, 20], [0, 0, 800, 800])

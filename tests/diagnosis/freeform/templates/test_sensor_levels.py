@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from level_logs import OF_TIP_ALONE, TORQUE, ranges_with
 
-from diagnosis.freeform.sensor_levels import LevelLaw, odd
+from diagnosis.freeform.templates.sensor_levels import LevelLaw, odd
 from diagnosis.log import trial
 from diagnosis.replay.rig_parameters import NOMINAL
 
