@@ -12,7 +12,8 @@ from diagnosis.freeform.smooth_curve import SmoothCurve
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.prediction import Prediction
-from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle, rate_of
+from diagnosis.replay.sensing.variable_values import of_inputs, of_needle, rate_of
+from diagnosis.replay.variables import OF_THE_NEEDLE, Variable
 from models import units
 
 Array = NDArray[np.float64]

@@ -33,7 +33,8 @@ from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 from diagnosis.replay.sensing.bearing import stopped_at
 from diagnosis.replay.sensing.filters import first_order
 from diagnosis.replay.sensing.limited_rate import lag_at_limited_rate
-from diagnosis.replay.variables import OF_INPUTS, Variable
+from diagnosis.replay.sensing.variable_values import OF_INPUTS
+from diagnosis.replay.variables import Variable
 from models.errors import InvalidValue
 
 Array = NDArray[np.float64]

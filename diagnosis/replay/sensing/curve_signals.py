@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.replay.curve import ActsOn, Curve
-from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
+from diagnosis.replay.sensing.variable_values import of_inputs, of_needle
+from diagnosis.replay.variables import OF_THE_NEEDLE, Variable
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]

@@ -17,7 +17,8 @@ from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.replay import replay
-from diagnosis.replay.variables import Variable, of_needle
+from diagnosis.replay.sensing.variable_values import of_needle
+from diagnosis.replay.variables import Variable
 
 Array = NDArray[np.float64]
 Course = Callable[[PreparedTrial, Prediction], Sequence[Array]]

@@ -26,7 +26,8 @@ from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.replay.variables import UNITS, Variable, of_inputs
+from diagnosis.replay.sensing.variable_values import of_inputs
+from diagnosis.replay.variables import UNITS, Variable
 from models.tissue import Interface
 
 Array = NDArray[np.float64]
