@@ -46,7 +46,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _held(ranges: LogRanges) -> Family:
-    dry, starts = _dry(ranges), len(_TWISTS_DEG)
+    dry, starts = dry_at_tip(ranges), len(_TWISTS_DEG)
     twist = Parameter(
         name="twist", unit="deg", low=0.5, high=180.0, start=_TWISTS_DEG, logarithmic=True, neutral=None
     )
@@ -79,7 +79,7 @@ def _apply_held(rig: RigParameters, level: float, twist_deg: float) -> RigParame
 
 
 def _tip_rate(ranges: LogRanges) -> Family:
-    dry, rates = _dry(ranges), rates_of(ranges)
+    dry, rates = dry_at_tip(ranges), rates_of(ranges)
     curve = ranges.in_detail(smooth_curve(0.0, 1.0, PLACES))
     neutral = (0.0,) * len(dry.start)
     return Family(
@@ -128,7 +128,7 @@ def _drag(ranges: LogRanges, starts: int) -> Parameter:
     )
 
 
-def _dry(ranges: LogRanges) -> Parameter:
+def dry_at_tip(ranges: LogRanges) -> Parameter:
     """Dry friction at the tip, in the range of what `AT_TIP_MM` of shaft have."""
     along = ranges.dry_level
     each = {k: getattr(along, k) * AT_TIP_MM for k in ("low", "high")}
@@ -156,7 +156,7 @@ def _apply_tip_rate(
 
 
 def _torque_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> Family:
-    dry = _dry(ranges)
+    dry = dry_at_tip(ranges)
     neutral = (0.0,) * len(dry.start)
     own = (replace(p, start=neutral) for p in coordinates_of(curve))
     return Family(

@@ -63,10 +63,10 @@ def _damping_over_angles(shown: Array, beta: float, *c: float) -> Points:
 def _apply_uneven(beta: float, rig: RigParameters, *c: float) -> RigParameters:
     kept = _kept_below(beta, c)
     waves = zip(ALONG, kept[::2], kept[1::2], strict=True)
-    return replace(rig, free=FreeLaw(throughout=tuple(_damping_wave(*own) for own in waves)))
+    return replace(rig, free=FreeLaw(throughout=tuple(damping_wave(*own) for own in waves)))
 
 
-def _damping_wave(cycles: int, sine: float, cosine: float) -> Interface:
+def damping_wave(cycles: int, sine: float, cosine: float) -> Interface:
     """One wave: a sin x + b cos x = hypot(a, b) cos(x - atan2(a, b))."""
     return Interface(
         orientation_viscous_n_mm_s_per_mm=math.hypot(sine, cosine),
@@ -77,7 +77,7 @@ def _damping_wave(cycles: int, sine: float, cosine: float) -> Interface:
 
 def _kept_below(beta: float, c: Sequence[float]) -> list[float]:
     """Waves that leave some damping at any angle."""
-    most = _sum_of_sizes(c)
+    most = sum_of_sizes(c)
     share = min(1.0, _MOST_UNEVEN * beta / most) if most > 0.0 else 1.0
     return [share * own for own in c]
 
@@ -89,25 +89,25 @@ def _uneven_friction(ranges: LogRanges) -> Family:
             name="dry friction along the shaft over tip_angle",
             title="dry friction that depends on the angle of the shaft",
             place=Place.INTERFACE,
-            parameters=_level_and_waves(ranges.dry_level),
+            parameters=level_and_waves(ranges.dry_level),
             apply=_apply_uneven_friction,
             differences=(1e-2,),
         ),
         places={Place.INTERFACE: 0.6, Place.NEEDLE: 0.4},
         says="tip_angle",
         title="dry friction along the shaft",
-        curve=partial(_friction_over_angles, shown_deg(ranges)),
+        curve=partial(size_over_angles, shown_deg(ranges), ALONG),
         x_unit="deg",
         unit="N mm / mm",
     )
 
 
-def _level_and_waves(level: Parameter) -> tuple[Parameter, ...]:
-    """Starts in four directions: at no wave, its size has no slope."""
+def level_and_waves(level: Parameter, waves: int = len(ALONG)) -> tuple[Parameter, ...]:
+    """A level and waves upon it, with starts in four directions: at no wave, its size has no slope."""
     towards = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]
     starts = [(size, size * sine, size * cosine) for size in level.start for sine, cosine in towards]
     levels, sines, cosines = zip(*starts, strict=True)
-    sine, cosine, *others = coordinates(2 * len(ALONG), 0, level.start[-1])
+    sine, cosine, *others = coordinates(2 * waves, 0, level.start[-1])
     return (
         replace(level, start=levels),
         replace(sine, start=sines),
@@ -116,22 +116,24 @@ def _level_and_waves(level: Parameter) -> tuple[Parameter, ...]:
     )
 
 
-def _friction_over_angles(shown: Array, level: float, *c: float) -> Points:
-    angle, waves = over_angles(shown, ALONG, *c)
-    return angle, level + _sum_of_sizes(c) + np.asarray(waves)
+def size_over_angles(shown: Array, waves: Sequence[int], level: float, *c: float) -> Points:
+    """A level, and upon it waves with these cycles in a turn, over angles, deg."""
+    angle, above = over_angles(shown, waves, *c)
+    return angle, level + sum_of_sizes(c) + np.asarray(above)
 
 
-def _sum_of_sizes(c: Sequence[float]) -> float:
+def sum_of_sizes(c: Sequence[float]) -> float:
+    """Sizes of all waves, from sine and cosine of each."""
     return sum(math.hypot(a, b) for a, b in zip(c[::2], c[1::2], strict=True))
 
 
 def _apply_uneven_friction(rig: RigParameters, level: float, *c: float) -> RigParameters:
     waves = zip(ALONG, c[::2], c[1::2], strict=True)
-    first, *others = (_friction_wave(*own) for own in waves)
+    first, *others = (friction_wave(*own) for own in waves)
     return replace(rig, free=FreeLaw(throughout=(first.but(kinetic_n_mm_per_mm=level), *others)))
 
 
-def _friction_wave(cycles: int, sine: float, cosine: float) -> Interface:
+def friction_wave(cycles: int, sine: float, cosine: float) -> Interface:
     """One wave and its size: a sin x + b cos x + hypot(a, b), which is nowhere below 0."""
     return Interface(
         orientation_dry_n_mm_per_mm=math.hypot(sine, cosine),
