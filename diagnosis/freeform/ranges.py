@@ -39,6 +39,7 @@ LEAST_RANGE = {
     Variable.AXIAL_FLOW: 20.0,
     Variable.THRUST: 10.0,
     Variable.DEPTH: 5.0,
+    Variable.FREE: 5.0,
     Variable.ADVANCED_BY: 2.0,
     Variable.SLID: 5.0,
     Variable.TRAVELLED: 5.0,

@@ -53,6 +53,7 @@ class ActsOn(StrEnum):
     DRIVE_ANGLE = "drive_angle"
     DRIVE_SLIP = "drive_slip"
     INSERTED_LENGTH = "inserted_length"
+    FREE_LENGTH = "free_length"
     TIP_TORQUE = "tip_torque"
     DRIVE_TORQUE = "drive_torque"
     TIP_READING = "tip_reading"

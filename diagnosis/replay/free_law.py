@@ -13,6 +13,7 @@ What its curves act on:
     drive_slip      the needle slips at the chuck at the rate of the curve, deg/s
     inserted_length as much more of the shaft is inserted as the curve says, mm, and less is free
                     over advanced_by: hysteresis, as of a surface that is dragged along
+    free_length     the shaft before the tissue is longer by the curve, mm
     tip_torque      the tip is turned by a torque as the curve says, N mm
     drive_torque    the torque sensor reads the needle's torque + the curve, N mm
     tip_reading     the tip sensor reads the tip's angle + the curve, deg

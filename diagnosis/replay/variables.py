@@ -18,6 +18,7 @@ thrust         inserted length where the needle is pushed, with the sign of slid
 axial_flow     inserted length times axial speed, mm^2/s: what the viscous drag of a sliding needle is
                proportional to
 depth          inserted length, mm
+free           length of the shaft before the tissue, mm
 advanced_by    advance since the needle last moved the other way, mm
 slid           how far the needle has slid since the start of the trial, into the tissue less back, mm
 travelled      the same, in both directions together, mm
@@ -54,6 +55,7 @@ class Variable(StrEnum):
     THRUST = "thrust"
     AXIAL_FLOW = "axial_flow"
     DEPTH = "depth"
+    FREE = "free"
     ADVANCED_BY = "advanced_by"
     SLID = "slid"
     TRAVELLED = "travelled"
@@ -84,6 +86,7 @@ UNITS = {
     Variable.THRUST: "mm, with the sign of the direction",
     Variable.AXIAL_FLOW: "mm^2/s",
     Variable.DEPTH: "mm",
+    Variable.FREE: "mm",
     Variable.ADVANCED_BY: "mm",
     Variable.SLID: "mm",
     Variable.TRAVELLED: "mm",
@@ -106,6 +109,7 @@ SAYS: Mapping[str, str] = {
     Variable.AXIAL_DRAG: "axial_speed",
     Variable.THRUST: "axial_speed",
     Variable.AXIAL_FLOW: "axial_speed",
+    Variable.FREE: "depth",
     Variable.ADVANCED_BY: "axial_speed",
     Variable.SLID: "axial_speed",
     Variable.TRAVELLED: "history",

@@ -4,6 +4,7 @@
 - over the axial speed: tissue that the needle pushes in before it slides, and draws out after
 - with hysteresis over the logged length: a surface that goes with the shaft until it slides, up to one
   limit, or to several
+- of the length before the tissue, over itself: a chuck that holds the shaft elsewhere, or a wrong scale
 """
 
 from dataclasses import replace
@@ -15,12 +16,13 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of, most_probable
 from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, bent_curve, separate_values, smooth_curve
-from diagnosis.replay.curve import ActsOn
+from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 
 _COUNT, _SIZE_MM, _SHARE, _MOST = 6, 8.0, 0.3, 0.8
+_MOST_FREE_MM, _MOST_FREE = 100.0, 0.5  # error of the free length, and of its scale
 _PLACES = {
     Variable.DEPTH: {Place.PARAMETERS: 1.0},
     Variable.AXIAL_SPEED: {Place.TISSUE: 0.6, Place.PARAMETERS: 0.4},
@@ -28,11 +30,58 @@ _PLACES = {
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """All laws, if length and speed change."""
+    """Those of the inserted length if length and speed change; that of the free length always."""
     found = [_length_over(v, ranges) for v in _PLACES if v in ranges.ends]
     if Variable.ADVANCED_BY in ranges.ends:
         found += [_dragged(ranges), _dragged_to_one_limit(ranges)]
-    return tuple(found)
+    return (*found, _free_length(ranges))
+
+
+def _free_length(ranges: LogRanges) -> Family:
+    """An error of the length before the tissue, and one of its scale where it changes."""
+    schedules = [trial.schedule.free_mm for trial in ranges.problem.log.trials]
+    free_mm = np.concatenate(schedules)
+    ends = ranges.ends.get(Variable.FREE, (float(free_mm.mean()) - 1.0, float(free_mm.mean()) + 1.0))
+    error = Parameter(
+        name="error", unit="mm", low=-_MOST_FREE_MM, high=_MOST_FREE_MM, start=(0.0,), scale=_SIZE_MM
+    )
+    scale = Parameter(name="scale", unit="-", low=-_MOST_FREE, high=_MOST_FREE, start=(0.0,), scale=0.1)
+    return Family(
+        effect=Effect(
+            name="free length over free",
+            title="a free length that is not the logged one",
+            place=Place.PARAMETERS,
+            parameters=(error, scale) if Variable.FREE in ranges.ends else (error,),
+            apply=partial(_apply_free, ends),
+            differences=(1e-2,),
+        ),
+        places={Place.PARAMETERS: 1.0},
+        says=SAYS[Variable.FREE],
+        title="error of the free length",
+        curve=partial(_over_free, ends),
+        x_unit=UNITS[Variable.FREE],
+        unit="mm",
+    )
+
+
+def _over_free(
+    ends: tuple[float, float], error_mm: float, scale: float = 0.0
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The error is that of the middle of the range."""
+    low, high = ends
+    swing = 0.5 * scale * (high - low)
+    return ends, (error_mm - swing, error_mm + swing)
+
+
+def _apply_free(ends: tuple[float, float], rig: RigParameters, *values: float) -> RigParameters:
+    places, errors = _over_free(ends, *values)
+    own = Curve(
+        acts_on=ActsOn.FREE_LENGTH,
+        variable=Variable.FREE,
+        places=places,
+        values=errors,
+    )
+    return replace(rig, free=FreeLaw(curves=(own,)))
 
 
 def _length_over(variable: Variable, ranges: LogRanges) -> Family:

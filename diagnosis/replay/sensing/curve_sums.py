@@ -56,7 +56,7 @@ def driven_by(curves: Sequence[Curve], inputs: Schedule, start_s: float, torque_
         tip_torque_n_mm=inputs.tip_torque_n_mm - total(ActsOn.TIP_TORQUE),
         tissue_factor=resists * product(ActsOn.ORIENTATION),
         inserted_mm=inputs.inserted_mm + deeper,
-        free_mm=inputs.free_mm - deeper,
+        free_mm=np.maximum(inputs.free_mm - deeper + total(ActsOn.FREE_LENGTH), 0.0),
     )
 
 

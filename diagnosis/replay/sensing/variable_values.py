@@ -146,6 +146,7 @@ OF_INPUTS: Mapping[Variable, Callable[[Schedule, float], Array]] = {
     Variable.THRUST: _thrust,
     Variable.AXIAL_FLOW: lambda inputs, _: inputs.inserted_mm * inputs.speed_mm_s,
     Variable.DEPTH: lambda inputs, _: inputs.inserted_mm,
+    Variable.FREE: lambda inputs, _: inputs.free_mm,
     Variable.HISTORY: _history,
     Variable.SLID: _slid,
     Variable.TRAVELLED: _travelled,

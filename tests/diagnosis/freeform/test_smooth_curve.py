@@ -157,6 +157,7 @@ ADDED = {
     ActsOn.DRIVE_ANGLE,
     ActsOn.DRIVE_SLIP,
     ActsOn.INSERTED_LENGTH,
+    ActsOn.FREE_LENGTH,
     ActsOn.DRIVE_TORQUE,
     ActsOn.TIP_READING,
     ActsOn.TIP_COUNTS,

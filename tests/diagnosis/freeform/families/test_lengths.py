@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import turns
+from diagnosis_fixtures import RIG, turns
 from free_forms import covered, same_readings
 
+from diagnosis.effects import LIBRARY
 from diagnosis.freeform.families.lengths import families
 from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.replay.sensing.sensors import driven
@@ -21,13 +22,14 @@ MOVING = replace(
     ends={
         **STILL.ends,
         Variable.DEPTH: (40.0, 90.0),
+        Variable.FREE: (60.0, 110.0),
         Variable.AXIAL_SPEED: (-2.0, 4.0),
         Variable.ADVANCED_BY: (0.0, 50.0),
     },
 )
 FAMILIES = {family.name: family for family in families(MOVING)}
 DEPTH, SPEED = "inserted length over depth", "inserted length over axial_speed"
-ADVANCED = "inserted length over advanced_by"
+ADVANCED, FREE = "inserted length over advanced_by", "free length over free"
 ONE_LIMIT = f"{ADVANCED}, up to one limit"
 
 
@@ -41,9 +43,31 @@ def schedule(depth_mm, speed_mm_s):
     )
 
 
-def test_at_one_length_and_at_rest_neither_is_asked_for():
-    assert families(STILL) == ()
-    assert set(FAMILIES) == {DEPTH, SPEED, ADVANCED, ONE_LIMIT}
+def test_at_one_length_and_at_rest_only_an_error_of_the_free_length_is_asked_for():
+    (only,) = families(STILL)
+    assert only.name == FREE
+    assert [p.name for p in only.effect.parameters] == ["error"]
+    assert set(FAMILIES) == {DEPTH, SPEED, ADVANCED, ONE_LIMIT, FREE}
+
+
+def test_a_free_length_that_is_longer_is_a_spring_in_the_drive():
+    """Nothing acts on it: stiffness = rigidity / length, shorter than which no library has."""
+    family = FAMILIES[FREE]
+    spring = LIBRARY["base_compliance"].apply(NOMINAL, RIG.rigidity_n_mm2 / 12.0)
+    assert same_readings(ANGLE, family.effect.apply(NOMINAL, 12.0, 0.0), spring, within=1e-3)
+    assert not same_readings(ANGLE, family.effect.apply(NOMINAL, -12.0, 0.0), spring, within=1e-3)
+
+
+def test_a_free_length_whose_scale_is_wrong_is_off_by_a_share_of_itself():
+    family = FAMILIES[FREE]
+    places, error = family.curve(3.0, 0.1)
+    assert list(places) == [60.0, 110.0]
+    np.testing.assert_allclose(error, [3.0 - 2.5, 3.0 + 2.5])
+    depth = np.linspace(40.0, 90.0, TIME.size)
+    found = driven(family.effect.apply(NOMINAL, 3.0, 0.1), schedule(depth, 1.0))
+    logged = 150.0 - depth
+    np.testing.assert_allclose(found.free_mm, logged + 3.0 + 0.1 * (logged - 85.0), atol=1e-9)
+    np.testing.assert_array_equal(found.inserted_mm, depth)
 
 
 def test_a_length_that_is_right_everywhere_is_the_logged_one():

@@ -50,6 +50,7 @@ def test_what_acts_on_sensors_leaves_the_inputs_as_they_are(acts_on):
         (ActsOn.STIFFNESS, {"tissue_factor"}),
         (ActsOn.ORIENTATION, {"tissue_factor"}),
         (ActsOn.INSERTED_LENGTH, {"free_mm", "inserted_mm"}),
+        (ActsOn.FREE_LENGTH, {"free_mm"}),
     ],
 )
 def test_what_acts_on_the_needle_changes_its_own_input(acts_on, inputs):
@@ -80,6 +81,14 @@ def test_tissue_keeps_a_little_and_no_more_is_inserted_than_is_free():
         done = driven(curve(ActsOn.INSERTED_LENGTH, values=(most,) * 4))
         np.testing.assert_allclose(done.inserted_mm + done.free_mm, 150.0)
         np.testing.assert_allclose(done.inserted_mm, 150.0 if most > 0 else 0.0)
+
+
+def test_a_free_length_is_never_less_than_none():
+    done = driven(curve(ActsOn.FREE_LENGTH, values=(-1e3,) * 4))
+    np.testing.assert_array_equal(done.free_mm, 0.0)
+    longer = driven(curve(ActsOn.FREE_LENGTH, values=(5.0,) * 4))
+    np.testing.assert_allclose(longer.free_mm, INPUTS.free_mm + 5.0)
+    np.testing.assert_array_equal(longer.inserted_mm, INPUTS.inserted_mm)
 
 
 def test_counts_that_are_lost_at_a_rate_add_up_at_the_tip():

@@ -1,4 +1,4 @@
-"""Drag at the tip that grows with a power of the rate."""
+"""Drag at the tip, at the entry or in the sheath that grows with a power of the rate."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from diagnosis.freeform.families.in_one_place.power import families
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(6.0)
-(FAMILY,) = families(covered(ANGLE, tip=ANGLE))
+FAMILY, *ALONG = families(covered(ANGLE, tip=ANGLE))
 
 
 def test_with_the_power_one_it_is_the_drag_of_the_library():
@@ -35,6 +35,16 @@ def test_it_is_of_one_place_and_its_strength_is_its_drag():
     (law,) = free.at_tip
     assert law.exponent == 2.0
     assert free.times(0.5).at_tip[0].viscous_n_mm_s_per_mm == pytest.approx(0.15)
+
+
+@pytest.mark.parametrize(("family", "law"), [*zip(ALONG, ("at_entry", "in_sheath"), strict=True)])
+def test_along_the_shaft_it_is_that_of_its_place(family, law):
+    rig = family.effect.apply(NOMINAL, 0.05, 0.5)
+    (own,) = getattr(rig.free, law)
+    assert (own.viscous_n_mm_s_per_mm, own.exponent) == (0.05, 0.5)
+    assert not same_readings(ANGLE, rig, NOMINAL)
+    starts = {*zip(*(p.start for p in family.effect.parameters), strict=True)}
+    assert len(starts) == 4
 
 
 def test_what_it_depends_on_has_a_word_and_a_base_at_rest_has_none():
