@@ -86,7 +86,7 @@ UNITS = {
     Variable.THRUST: "mm, with the sign of the direction",
     Variable.AXIAL_FLOW: "mm^2/s",
     Variable.DEPTH: "mm",
-    Variable.FREE: "mm",
+    Variable.FREE: "mm free",
     Variable.ADVANCED_BY: "mm",
     Variable.SLID: "mm",
     Variable.TRAVELLED: "mm",

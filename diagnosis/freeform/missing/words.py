@@ -45,6 +45,7 @@ _OF_SENSOR = {
     "history": "read the sensor at rest, without a load, before and after each trial, and after turns "
     "both ways",
 }
+_LENGTHS = "measure how much of the shaft is free and inserted, at both ends of the travel, by a ruler"
 _WHILE_TURNING = "turn at one steady rate while sliding the needle in and out at three speeds"
 """Of the axial speed, for what acts about the axis: without turning, sensors alone show it."""
 
@@ -62,4 +63,6 @@ def check_of(place: Place, variable: str, *, of_a_clock: bool = False) -> str:
         return _CLOCKS
     if place is Place.SENSOR:
         return _OF_SENSOR.get(variable, _CHECKS[variable])
+    if place is Place.PARAMETERS and variable == "depth":
+        return _LENGTHS
     return _WHILE_TURNING if variable == "axial_speed" else _CHECKS[variable]

@@ -32,14 +32,13 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _power(spot: Spot, drag: Parameter) -> Family:
-    starts = drag.start[:2]
     return Family(
         effect=Effect(
             name=f"{spot.name} over rate, a power",
             title=f"drag {spot.words} with a power of the rate",
             place=most_probable(spot.places),
             parameters=(
-                replace(drag, start=(starts * 2)[: len(_EXPONENTS)]),
+                replace(drag, start=drag.start[:2] * 2),
                 Parameter(name="exponent", unit="-", low=0.2, high=3.0, start=_EXPONENTS, neutral=1.0),
             ),
             apply=partial(_apply, spot),

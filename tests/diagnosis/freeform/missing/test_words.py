@@ -20,6 +20,11 @@ def test_what_acts_about_the_axis_is_checked_while_the_needle_turns():
     assert all(check_of(place, variable) for place in Place for variable in VOCABULARY)
 
 
+def test_a_length_that_is_not_the_logged_one_is_measured():
+    assert "by a ruler" in check_of(Place.PARAMETERS, "depth")
+    assert "by a ruler" not in check_of(Place.TISSUE, "depth")
+
+
 def test_every_family_says_a_variable_of_the_vocabulary():
     angle = turns()
     slow = angle - 0.2 * angle**2 / 90
