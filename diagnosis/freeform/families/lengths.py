@@ -22,7 +22,7 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 
 _COUNT, _SIZE_MM, _SHARE, _MOST = 6, 8.0, 0.3, 0.8
-_MOST_FREE_MM, _MOST_FREE = 100.0, 0.5  # error of the free length, and of its scale
+_MOST_FREE_MM, _MOST_FREE, _USUAL_FREE = 100.0, 0.5, 0.1  # error of the free length, and of its scale
 _PLACES = {
     Variable.DEPTH: {Place.PARAMETERS: 1.0},
     Variable.AXIAL_SPEED: {Place.TISSUE: 0.6, Place.PARAMETERS: 0.4},
@@ -39,13 +39,14 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 def _free_length(ranges: LogRanges) -> Family:
     """An error of the length before the tissue, and one of its scale where it changes."""
-    schedules = [trial.schedule.free_mm for trial in ranges.problem.log.trials]
-    free_mm = np.concatenate(schedules)
-    ends = ranges.ends.get(Variable.FREE, (float(free_mm.mean()) - 1.0, float(free_mm.mean()) + 1.0))
+    mean_mm = float(np.mean([trial.schedule.free_mm.mean() for trial in ranges.problem.log.trials]))
+    ends = ranges.ends.get(Variable.FREE, (mean_mm - 1.0, mean_mm + 1.0))
     error = Parameter(
         name="error", unit="mm", low=-_MOST_FREE_MM, high=_MOST_FREE_MM, start=(0.0,), scale=_SIZE_MM
     )
-    scale = Parameter(name="scale", unit="-", low=-_MOST_FREE, high=_MOST_FREE, start=(0.0,), scale=0.1)
+    scale = Parameter(
+        name="scale", unit="-", low=-_MOST_FREE, high=_MOST_FREE, start=(0.0,), scale=_USUAL_FREE
+    )
     return Family(
         effect=Effect(
             name="free length over free",

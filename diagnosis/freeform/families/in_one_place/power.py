@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter
-from diagnosis.freeform.families.in_one_place.rubbing import AT_THE_TIP, ENTRY, SHEATH, Spot
+from diagnosis.freeform.families.in_one_place.rubbing import AT_THE_TIP, SPOTS, Spot
 from diagnosis.freeform.family import Family, Points, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.rig_parameters import RigParameters
@@ -27,7 +27,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if Variable.RATE not in ranges.ends:
         return ()
     tip = ranges.library["tip_drag"].parameters[0]
-    along = ((spot, spot.drag(ranges)) for spot in (ENTRY, SHEATH))
+    along = ((spot, spot.drag(ranges)) for spot in SPOTS)
     return (_power(AT_THE_TIP, tip), *(_power(spot, drag) for spot, drag in along))
 
 

@@ -27,6 +27,9 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 from models.tissue import Interface
 
+Laws = Callable[..., tuple[Interface, ...]]
+"""Those at the tip, of a level and of sine and cosine of each wave."""
+
 _LEAST = 1e-2  # of the drag that a law starts with: waves may be nearly all of it
 
 
@@ -35,25 +38,19 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if Variable.BASE_ANGLE not in ranges.ends:
         return ()
     return (
-        _family(ranges, "drag", _drag(ranges), _apply_drag, "N mm s / rad"),
-        _family(ranges, "dry friction", dry_at_tip(ranges), _apply_dry, "N mm"),
+        _family(ranges, "drag", _drag(ranges), _drag_waves),
+        _family(ranges, "dry friction", dry_at_tip(ranges), _dry_waves),
     )
 
 
-def _family(
-    ranges: LogRanges,
-    what: str,
-    level: Parameter,
-    apply: Callable[..., RigParameters],
-    unit: str,
-) -> Family:
+def _family(ranges: LogRanges, what: str, level: Parameter, laws: Laws) -> Family:
     return Family(
         effect=Effect(
             name=f"{what} at the tip over tip_angle",
             title=f"{what} at the tip that depends on its angle",
             place=Place.NEEDLE,
             parameters=level_and_waves(level, len(AT_TIP)),
-            apply=apply,
+            apply=partial(_apply, laws),
             differences=(1e-2,),
         ),
         places={Place.NEEDLE: 1.0},
@@ -61,7 +58,7 @@ def _family(
         title=f"{what} at the tip",
         curve=partial(size_over_angles, shown_deg(ranges), AT_TIP),
         x_unit="deg",
-        unit=unit,
+        unit=level.unit,
     )
 
 
@@ -69,29 +66,25 @@ def _drag(ranges: LogRanges) -> Parameter:
     """Drag at the easiest angle."""
     own = ranges.library["tip_drag"].parameters[0]
     usual = own.start[0]
-    return Parameter(
+    return replace(
+        own,
         name="level",
-        unit=own.unit,
         low=_LEAST * usual,
-        high=own.high,
         start=(usual,),
         logarithmic=True,
         neutral=None,
     )
 
 
-def _apply_drag(rig: RigParameters, level: float, *c: float) -> RigParameters:
-    waves = zip(AT_TIP, c[::2], c[1::2], strict=True)
-    first, *others = (damping_wave(*own) for own in waves)
-    mean = first.but(viscous_n_mm_s_per_mm=level + sum_of_sizes(c))
-    return _at_tip(rig, mean, *others)
+def _drag_waves(level: float, *c: float) -> tuple[Interface, ...]:
+    first, *others = (damping_wave(*own) for own in zip(AT_TIP, c[::2], c[1::2], strict=True))
+    return first.but(viscous_n_mm_s_per_mm=level + sum_of_sizes(c)), *others
 
 
-def _apply_dry(rig: RigParameters, level: float, *c: float) -> RigParameters:
-    waves = zip(AT_TIP, c[::2], c[1::2], strict=True)
-    first, *others = (friction_wave(*own) for own in waves)
-    return _at_tip(rig, first.but(kinetic_n_mm_per_mm=level), *others)
+def _dry_waves(level: float, *c: float) -> tuple[Interface, ...]:
+    first, *others = (friction_wave(*own) for own in zip(AT_TIP, c[::2], c[1::2], strict=True))
+    return first.but(kinetic_n_mm_per_mm=level), *others
 
 
-def _at_tip(rig: RigParameters, *laws: Interface) -> RigParameters:
-    return replace(rig, free=FreeLaw(at_tip=laws))
+def _apply(laws: Laws, rig: RigParameters, *values: float) -> RigParameters:
+    return replace(rig, free=FreeLaw(at_tip=laws(*values)))
