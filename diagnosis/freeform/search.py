@@ -58,19 +58,21 @@ def free_form_fits(
     coarse: FitProblem,
     effects: Sequence[str],
     workers: Workers,
+    known: Sequence[FreeFit] = (),
 ) -> tuple[FreeFit, ...]:
     """The best fit of every family; those of the log itself before the others.
 
     Args:
       problem, coarse: the log itself, and decimated.
       effects: of the library, which may stand beside a law.
+      known: fits of the decimated log, whose families are not begun anew.
     """
     nominal = replay(coarse.log, resolution=coarse.resolution)
     softer = replay(coarse.log, _SOFTER, coarse.resolution)
     ranges = ranges_of(coarse, nominal, softer)
     base = fit_effects(coarse, ())
     rough = on_coarser_needle(coarse, base)
-    first, fitted = _alone(coarse, rough, base, families_of(ranges), workers)
+    first, fitted = _alone(coarse, rough, base, families_of(ranges), known, workers)
     fitted = _richer(coarse, first, fitted, ranges, workers)
     if _open(fitted):
         fitted += beside_one(coarse, rough, base, fitted, first, effects, workers)
@@ -88,7 +90,10 @@ def fits_in_noise(
     effects: Sequence[str],
     workers: Workers,
 ) -> tuple[FreeFit, ...]:
-    """The fits in another noise, from where they are; all anew where none of these closes the gap there.
+    """The fits in another noise, from where they are.
+
+    Where none of these closes the gap there, the search is made again, with what each family is known to
+    leave.
 
     Args:
       before, after: the log itself, and decimated, in either noise.
@@ -97,19 +102,27 @@ def fits_in_noise(
     finals = [f for f in fits if f.final]
     enough = (WORTH_A_FINAL * CLOSED_GAP) ** 2 * quieter.samples
     fitted = each_fit(FITTING, full_fit, [(quieter, f, enough, f.fit.x) for f in finals], workers)
+    others = rescaled_fits([f for f in fits if not f.final], coarse, quieter.noise)
     if not fitted or _open(fitted):
-        return free_form_fits(problem, quieter, effects, workers)
+        alone = [f for f in [*fitted, *others] if len(f.names) == 1]
+        return free_form_fits(problem, quieter, effects, workers, distinct(alone))
     calls = [(problem, f, False) for f in _finalists(fitted, False)]
     finals = each_fit(FINALS, _on_the_log, calls, workers)
-    others = rescaled_fits([f for f in fits if not f.final], coarse, quieter.noise)
     return (*finals, *_behind(finals, [*fitted, *others], ()))
 
 
 def _alone(
-    coarse: FitProblem, rough: FitProblem, base: Fit, families: Sequence[Family], workers: Workers
+    coarse: FitProblem,
+    rough: FitProblem,
+    base: Fit,
+    families: Sequence[Family],
+    known: Sequence[FreeFit],
+    workers: Workers,
 ) -> tuple[list[FreeFit], list[FreeFit]]:
     """The first fit of every family for a rougher needle, and those in reach, fitted to their end."""
-    first = each_fit(SCREENING, first_fit, [(rough, base, f) for f in families], workers)
+    names = {f.family.name for f in known}
+    new = [(rough, base, family) for family in families if family.name not in names]
+    first = [*known, *each_fit(SCREENING, first_fit, new, workers)]
     for worth, iterations in ((WORTH_A_SECOND, 1), (WORTH_MORE, MORE_ITERATIONS)):
         better, rest = _promising(first, worth)
         first = each_fit(SCREENING, _some_more, [(rough, f, iterations) for f in better], workers) + rest

@@ -30,7 +30,7 @@ def fitted(monkeypatch):
     problem, nominal = one_trial(np.linspace(0, 90, 200), tip=np.zeros(200))
     seen = []
 
-    def run(first, ended, final=None, effects=()):
+    def run(first, ended, final=None, effects=(), known=()):
         run.enough = []
         final = ended if final is None else final
 
@@ -77,7 +77,9 @@ def fitted(monkeypatch):
         for name, function in given.items():
             for module in (search, combined_laws):
                 monkeypatch.setattr(module, name, function, raising=False)
-        return free_form_fits(problem, problem, effects, Workers())
+        fits = [FreeFit(family=family_of(parameters=[LEVEL], name=n), fit=None) for n in known]
+        fits = [replace(one, fit=fit_of(one.family, known[one.family.name])) for one in fits]
+        return free_form_fits(problem, problem, effects, Workers(), fits)
 
     run.more, run.improved = [], {}
     return run, seen
@@ -93,6 +95,16 @@ def test_the_best_families_go_to_their_end_and_the_best_of_these_to_the_log_itse
     assert sorted(f.family.name for f in found) == sorted(gaps)
     assert all(f.final for f in found[: search.FINALISTS])
     assert len(seen) == 12 + search.CONTENDERS + search.FINALISTS
+
+
+def test_families_that_are_known_go_on_from_their_fits(fitted):
+    run, seen = fitted
+    gaps = {"a": 2.0, "b": 2.1, "c": 2.2}
+    found = run(gaps, {**gaps, "b": 1.05}, known={"b": 1.5, "richer": 5.0})
+    begun, ended = seen[:2], seen[2:5]
+    assert [name for name, _, _ in begun] == ["a", "c"]
+    assert [name for name, _, _ in ended] == ["b", "a", "c"]
+    assert sorted(f.family.name for f in found) == ["a", "b", "c", "richer"]
 
 
 @pytest.mark.parametrize(
@@ -326,8 +338,12 @@ def test_laws_that_close_the_gap_in_less_noise_go_on_from_where_they_are(in_half
     ]
 
 
-def test_where_none_does_all_laws_are_fitted_anew_there(in_half_the_noise):
-    fits, [(problem, coarse, effects, _)] = in_half_the_noise(CLOSED_GAP + 0.05)
+def test_where_none_does_the_search_is_made_again_from_what_each_family_leaves_there(in_half_the_noise):
+    fits, [(problem, coarse, effects, _, known)] = in_half_the_noise(CLOSED_GAP + 0.05)
     assert fits == ()
     assert problem is coarse
     assert effects == ("stiction",)
+    assert [(f.family.name, f.fit.gap) for f in known] == [
+        ("best", pytest.approx(CLOSED_GAP + 0.05)),
+        ("behind", pytest.approx(2.0)),
+    ]
