@@ -18,7 +18,7 @@ from models import units
 
 Array = NDArray[np.float64]
 
-_OF_READINGS = (Variable.PAST, Variable.TURNED_BY, Variable.LAG)
+_OF_READINGS = (Variable.PAST, Variable.TURNED_BY, Variable.LAG, Variable.HELD_BY)
 _OF_TRIALS = (Variable.TRIAL_SHARE, Variable.ADVANCED_BY)
 LEAST_PAST_S, LONGEST_PAST_S = 0.02, 60.0
 _ALL_BUT = 0.002  # of the samples at either end lie beyond a range
@@ -52,6 +52,7 @@ LEAST_RANGE = {
     Variable.PAST: 0.0,
     Variable.TURNED_BY: 0.0,
     Variable.LAG: 0.0,
+    Variable.HELD_BY: 0.0,
 }
 """Below which nothing can depend on a variable visibly."""
 

@@ -17,7 +17,8 @@ A curve over the turn, or the advance, since the last reversal adds hysteresis (
     += sum over places r of value z_r,    z_r <- clamp(z_r + change, -r, r).
 
 One over the lag of a reading gives the rate at which it follows: straight up to the last place, and
-level.
+level. One over what a reading is held by gives, as its last value, how far the true value may be from it
+before it jumps there.
 
 What a curve adds may be multiplied by a course over another variable: play that grows in time.
 """
@@ -32,6 +33,7 @@ from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
 from diagnosis.replay.sensing.bearing import stopped_at
 from diagnosis.replay.sensing.filters import first_order
+from diagnosis.replay.sensing.held_reading import held_back
 from diagnosis.replay.sensing.limited_rate import lag_at_limited_rate
 from diagnosis.replay.sensing.variable_values import OF_INPUTS
 from diagnosis.replay.variables import Variable
@@ -144,6 +146,10 @@ class Curve(Course):
         """What a reading that follows at a limited rate is behind, (N,), to add to it."""
         lag, most_per_s = self.places[-1], self.values[-1]
         return np.asarray(-lag_at_limited_rate(time_s, values, lag / most_per_s, most_per_s))
+
+    def held(self, values: Array) -> Array:
+        """What is shown by a reading that stays until the value is too far from it, less that, (N,)."""
+        return np.asarray(held_back(values, self.values[-1]))
 
     def times(self, strength: float) -> "Curve":
         """The curve multiplied by a strength; factors are raised to that power.

@@ -31,6 +31,7 @@ torque_rate    N mm / s
 past           time constant, s, with which a reading follows what it shows
 turned_by      turn since the last reversal, for a reading with hysteresis, in its own unit
 lag            of a reading or the needle in its chuck behind what it follows, in its own unit
+held_by        by how much a value may differ from a reading that stays until then, in its own unit
 """
 
 from collections.abc import Mapping
@@ -68,6 +69,7 @@ class Variable(StrEnum):
     PAST = "past"
     TURNED_BY = "turned_by"
     LAG = "lag"
+    HELD_BY = "held_by"
 
 
 UNITS = {
@@ -99,6 +101,7 @@ UNITS = {
     Variable.PAST: "s",
     Variable.TURNED_BY: "of its unit",
     Variable.LAG: "of its unit",
+    Variable.HELD_BY: "of its unit",
 }
 SAYS: Mapping[str, str] = {
     Variable.TRIAL_SHARE: "time",
@@ -120,6 +123,7 @@ SAYS: Mapping[str, str] = {
     Variable.PAST: "history",
     Variable.TURNED_BY: "history",
     Variable.LAG: "rate",
+    Variable.HELD_BY: "history",
 }
 """What variables are called in the vocabulary, those that have no name of their own there."""
 OF_THE_NEEDLE = (

@@ -1,7 +1,7 @@
 """The signals that curves of a free law add to the inputs of the needle, and to readings of sensors.
 
-Each is the curve at its variable, or what hysteresis, creep, a limited rate or a filter make of it,
-times its factor if it has one.
+Each is the curve at its variable, or what hysteresis, creep, a limited rate, a filter or a reading
+that is held make of it, times its factor if it has one.
 """
 
 import numpy as np
@@ -55,6 +55,8 @@ def on_reading(
             return curve.of_past(inputs.time_s, read) * factor
         case Variable.LAG:
             return curve.behind(inputs.time_s, read) * factor
+        case Variable.HELD_BY:
+            return curve.held(read) * factor
         case Variable.TURNED_BY:
             turned = inputs.drive if curve.acts_on is ActsOn.DRIVE_TORQUE else read
             return curve.with_hysteresis(turned) * factor

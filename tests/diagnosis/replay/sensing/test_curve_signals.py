@@ -64,6 +64,14 @@ def test_hysteresis_of_a_bearing_is_over_the_drive_and_of_a_sensor_over_what_it_
     np.testing.assert_array_equal(sensor, own.with_hysteresis(TIP))
 
 
+def test_a_reading_may_be_held_by_what_it_reads():
+    own = curve(ActsOn.TIP_READING, Variable.HELD_BY, values=(0.0, 5.0))
+    shown = TIP + read(own)
+    np.testing.assert_allclose(shown, TIP + own.held(TIP))
+    assert np.unique(shown).size < 40 < np.unique(TIP).size
+    assert np.abs(read(own)).max() == pytest.approx(5.0, abs=0.3)  # a sample moves by 0.24 at most
+
+
 def test_a_gain_adds_its_excess_over_one():
     own = curve(ActsOn.TIP_GAIN, Variable.TIME, values=(1.5, 1.5))
     np.testing.assert_allclose(on_gain(own, INPUTS, 0.0, TIP), 0.5 * TIP)

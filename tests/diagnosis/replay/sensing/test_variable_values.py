@@ -38,6 +38,7 @@ def test_every_variable_is_known_before_or_after_the_simulation():
         Variable.TURNED_BY,
         Variable.ADVANCED_BY,
         Variable.LAG,
+        Variable.HELD_BY,
     }
     assert all(of_inputs(v, inputs(), 0.0).shape == TIME.shape for v in before)
 
