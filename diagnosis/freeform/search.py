@@ -45,7 +45,7 @@ SCREENING, FITTING, FINALS = (
 )
 WORTH_A_SECOND, WORTH_MORE = 20, 10  # families that get a second iteration, and more than that
 MORE_ITERATIONS = 2
-IN_REACH = 2.5  # times the least predicted gap
+IN_REACH, IN_REACH_AT_FIRST = 2.5, 5.0  # times the least predicted gap; after one iteration
 CONTENDERS, FINALISTS, FAR_FINALISTS, FINALISTS_OF_ONE = 6, 4, 2, 2
 FEWEST_FINALISTS = 2
 WORTH_A_FINAL, WORTH_A_FINAL_BESIDE = 1.5, 1.3  # times the least gap; where that closes the gap
@@ -123,8 +123,9 @@ def _alone(
     names = {f.family.name for f in known}
     new = [(rough, base, family) for family in families if family.name not in names]
     first = [*known, *each_fit(SCREENING, first_fit, new, workers)]
-    for worth, iterations in ((WORTH_A_SECOND, 1), (WORTH_MORE, MORE_ITERATIONS)):
-        better, rest = _promising(first, worth)
+    rounds = ((WORTH_A_SECOND, IN_REACH_AT_FIRST, 1), (WORTH_MORE, IN_REACH, MORE_ITERATIONS))
+    for worth, reach, iterations in rounds:
+        better, rest = _promising(first, worth, reach)
         first = each_fit(SCREENING, _some_more, [(rough, f, iterations) for f in better], workers) + rest
     near, further = _promising(first, CONTENDERS)
     fitted = each_fit(FITTING, full_fit, [(coarse, f) for f in near], workers)
@@ -200,14 +201,16 @@ def _on_the_log(problem: FitProblem, contender: FreeFit, far: bool) -> FreeFit:
     return fitted_and_checked(problem, contender, contender.fit.x, far=far).with_its_law_first
 
 
-def _promising(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[FreeFit]]:
+def _promising(
+    fits: Sequence[FreeFit], most: int, in_reach: float = IN_REACH
+) -> tuple[list[FreeFit], list[FreeFit]]:
     """The most promising fits, those in reach of the best alone; and the rest.
 
     A law far from straight comes nowhere with its first step, and its slopes tell that it will.
     """
     ranked = sorted(fits, key=lambda f: f.predicted_score)
     closed = any(f.fit.gap <= CLOSED_GAP for f in fits)
-    reach = WORTH_A_FINAL_BESIDE if closed else IN_REACH
+    reach = WORTH_A_FINAL_BESIDE if closed else in_reach
     reach *= min((f.predicted_gap for f in fits), default=np.inf)
     best = [f for f in ranked[:most] if f.predicted_gap <= reach]
     return best, [f for f in ranked if f not in best]

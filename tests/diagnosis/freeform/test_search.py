@@ -156,6 +156,16 @@ def test_a_law_that_comes_far_with_its_second_iteration_gets_more(fitted):
     assert seen[len(gaps)][0] == late
 
 
+@pytest.mark.parametrize(("gap", "in_reach"), [(0.95, True), (1.05, False)])
+def test_after_one_iteration_laws_are_in_reach_that_would_not_be_later(fitted, gap, in_reach):
+    run, seen = fitted
+    far = gap * search.IN_REACH_AT_FIRST * 1.2
+    run.improved = {"far": 1.3}
+    run({"near": 1.2, "far": far}, {"near": 1.2, "far": 1.0})
+    assert (("far", 1) in run.more) is in_reach
+    assert ("far" in [name for name, _, _ in seen[2:]]) is in_reach
+
+
 def test_fewer_go_to_the_log_itself_where_all_leave_far_more_than_noise(fitted):
     run, _ = fitted
     gaps = {f"law {i}": FAR_GAP + 0.1 + 0.1 * i for i in range(12)}

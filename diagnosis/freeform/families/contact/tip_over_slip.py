@@ -9,12 +9,13 @@ another law.
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import product
 
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.families.interface import SLOW_RAD_S
-from diagnosis.freeform.family import Family, Points, coordinates_of, from_neutral
+from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.free_law import FreeLaw
@@ -24,6 +25,7 @@ from models.contact import CONTACT_POINTS, ContactCurve, ContactVariable, contac
 from models.tissue import Interface
 
 _FIRST_PART = 20.0  # of the farthest turn: places are even below that, and close
+_SLOPES = (0.0, -2.0)  # to start with: drag that stays, or falls to 2 %
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -33,13 +35,17 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     most_deg = 360.0 * ranges.ends[Variable.HISTORY][1]
     curve = smooth_curve(0.0, 1.0, CONTACT_POINTS)
     drag = ranges.library["tip_drag"].parameters[0]
+    starts, slopes = zip(*product(drag.start, _SLOPES), strict=True)
+    level, slope, *rest = coordinates_of(curve)
+    none = (0.0,) * len(starts)
+    own = (replace(p, start=slopes if p is slope else none) for p in (level, slope, *rest))
     return (
         Family(
             effect=Effect(
                 name="tip torque over slip",
                 title="drag at the tip that changes with how far it has turned",
                 place=Place.NEEDLE,
-                parameters=(replace(drag, neutral=None), *from_neutral(coordinates_of(curve), drag)),
+                parameters=(replace(drag, start=starts, neutral=None), *own),
                 apply=partial(_apply, curve, most_deg),
             ),
             places={Place.NEEDLE: 1.0},

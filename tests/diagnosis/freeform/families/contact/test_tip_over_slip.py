@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 from free_forms import covered, same_readings
 
@@ -50,6 +51,16 @@ def test_it_counts_what_the_tip_has_turned_not_the_base():
     other = replace(firm, free=replace(firm.free, at_tip=(law.but(contact=soon),)))
     (moved,) = predict(RIG, own, [other])
     assert np.abs(moved.tip_angle_deg - level.tip_angle_deg).max() > 0.2
+
+
+def test_fits_start_from_a_drag_that_stays_and_from_one_that_falls_to_a_small_part():
+    """A step from a level curve does not get to a drag that is gone after some turns."""
+    drag, level, slope, *_ = FAMILY.effect.parameters
+    own = LIBRARY["tip_drag"].parameters[0].start
+    assert [(d, s) for d in own for s in (0.0, -2.0)] == list(zip(drag.start, slope.start, strict=True))
+    assert set(level.start) == {0.0}
+    (_, (first, *_, last)) = FAMILY.curve(1.0, 0.0, -2.0, *LEVEL[2:])
+    assert last / first == pytest.approx(np.exp(-4.0))
 
 
 def test_a_base_that_does_not_turn_has_no_such_law():
