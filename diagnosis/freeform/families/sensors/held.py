@@ -22,6 +22,7 @@ from diagnosis.replay.variables import SAYS, Variable
 _LEAST, _MOST = 0.5, 10.0  # distance over what is missing: a value held within it is off by 0.6 of it
 _TRIED, _STARTS = 200, 4
 _APART = 1.1  # distances of two starts, at least
+_PLACES, _JUST = 5, 1.001  # of the step, on either side; a distance that is beyond it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,8 +97,10 @@ def _left(column: str, ranges: LogRanges, distance: float) -> float:
 
 
 def _shown(distance: float) -> Points:
-    beyond = 1.001 * distance
-    return (0.0, distance, beyond, 2.0 * distance), (0.0, 0.0, beyond, 2.0 * distance)
+    """A step, since what is shown follows as soon as it is off by the distance."""
+    up_to = np.linspace(0.0, distance, _PLACES)
+    off = np.concatenate([up_to, _JUST * distance + up_to])
+    return tuple(map(float, off)), (0.0,) * _PLACES + (distance,) * _PLACES
 
 
 def _apply(acts_on: ActsOn, rig: RigParameters, distance: float) -> RigParameters:

@@ -23,7 +23,7 @@ from models.needle import STIFFNESS_POINTS
 _LEAST, _MOST = 0.05, 20.0  # of the nominal stiffness
 _STARTS = ((1.0, 0.6), (0.6, 1.0), (1.0, 1.6), (1.6, 1.0))
 _ANY_N_MM = 1.0  # the factors are the same at every torque of a sign
-_CORNER = 1e-3
+_PLACES, _CORNER = 5, 1e-3  # of the step, on either side; the first of them, in the largest torque
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -61,8 +61,8 @@ def _factor(name: str, start: tuple[float, ...]) -> Parameter:
 
 
 def _factors(most_n_mm: float, forwards: float, backwards: float) -> Points:
-    torques = most_n_mm * np.array([-1.0, -_CORNER, _CORNER, 1.0])
-    return torques, np.array([backwards, backwards, forwards, forwards])
+    up = most_n_mm * np.linspace(_CORNER, 1.0, _PLACES)
+    return np.concatenate([-up[::-1], up]), np.repeat([backwards, forwards], _PLACES)
 
 
 def _apply(rig: RigParameters, forwards: float, backwards: float) -> RigParameters:

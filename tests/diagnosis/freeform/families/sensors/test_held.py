@@ -46,8 +46,8 @@ def test_a_law_of_half_the_strength_holds_within_half_the_distance():
 
 def test_the_law_is_told_over_how_far_a_value_is_from_what_is_shown():
     off, change = TIP.curve(5.0)
-    shown = np.interp([2.0, 4.99, 5.1, 9.0], off, change)
-    np.testing.assert_allclose(shown, [0.0, 0.0, 5.1, 9.0])
+    shown = np.interp([2.0, 4.99, 5.01, 9.0], off, change)
+    np.testing.assert_allclose(shown, [0.0, 0.0, 5.0, 5.0])
     assert {family.says for family in FAMILIES} == {"history"} <= VOCABULARY
 
 
