@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria.fitting import SCATTER
 from diagnosis.effects import FITTED
-from diagnosis.fitting.bounded_least_squares import predicted_reduction
+from diagnosis.fitting.bounded_least_squares import bounded_least_squares, predicted_reduction
 from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination, far_for
 from diagnosis.fitting.objective import NearStart, Objective
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
@@ -77,6 +77,12 @@ class Fit:
         """Cost that one more step would leave, by the linear model."""
         low, high = self.parameterization.bounds()
         return self.cost - predicted_reduction(self.slopes, self.residual, low - self.x, high - self.x)
+
+    @property
+    def next_step(self) -> Array:
+        """The step that would come next, by the linear model, (n,); hardly any if converged."""
+        low, high = self.parameterization.bounds()
+        return bounded_least_squares(self.slopes, -self.residual, low - self.x, high - self.x)
 
     def with_its_prediction(self) -> "Fit":
         """The fit, whose predicted cost is computed now: by the process that made it."""

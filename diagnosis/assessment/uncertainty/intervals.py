@@ -1,11 +1,11 @@
 """Parameters of a fit with 95 % intervals.
 
-Three errors move a fitted parameter: the noise of the sensors, with the covariance of least
-squares including the prior; the remaining noise of the base angle in the motion that drives the
-replay; and the numerical error of the replay. The second is found by repetition: noise is added to
-the smoothed motion, which is smoothed again, and one Gauss-Newton step gives the shift of the fit.
-The third is the shift by a Gauss-Newton step for a finer replay. Where a model is incomplete, what it
-leaves takes the place of the noise (`incomplete_model`).
+Four errors move a fitted parameter: the noise of the sensors, or by how much parts of the log disagree
+(`scatter_of_parts`); the remaining noise of the base angle in the motion that drives the replay; the
+numerical error of the replay; and what a fit leaves to go to its minimum. The second is found by
+repetition: noise is added to the smoothed motion, which is smoothed again, and one Gauss-Newton step
+gives the shift of the fit. The third is the shift by a Gauss-Newton step for a finer replay, the fourth
+the step that the fit itself would take next.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.assessment.uncertainty.incomplete_model import covariance_of_incomplete
+from diagnosis.assessment.uncertainty.scatter_of_parts import covariance_by_parts
 from diagnosis.criteria.assessment import INTERVAL_Z
 from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.fit import Fit
@@ -59,8 +59,11 @@ def covariance(
     again = _shifts(problem, fit, inverse)
     moved = [np.concatenate([*c.values(), _NOTHING]) for c in change]
     finer = _answer(fit, inverse, moved) if moved else np.zeros(fit.x.size)
-    known = covariance_of_incomplete(problem, fit, inverse, left) if left > 1.0 else inverse
-    return np.asarray(known + again.T @ again / len(again) + np.outer(finer, finer))
+    known = covariance_by_parts(problem, fit, inverse, left)
+    rest = fit.next_step
+    return np.asarray(
+        known + again.T @ again / len(again) + np.outer(finer, finer) + np.outer(rest, rest)
+    )
 
 
 def intervals(fit: Fit, spread: Array) -> dict[str, dict[str, Interval]]:

@@ -18,10 +18,11 @@ SAMPLES = 600
 
 @pytest.fixture(scope="module")
 def bias():
-    """The fit of a bias alone, on a log that has one."""
+    """The fit of a bias alone, on a log that has one, of which it leaves nothing."""
     log = log_of(RigParameters(tip_bias_deg=2.0), seconds=6.0)
     problem = replace(problem_of(log, sigma=SIGMA), nuisance=())
-    return problem, fit_effects(problem, ("tip_angle_bias",))
+    fit = fit_effects(problem, ("tip_angle_bias",))
+    return problem, replace(fit, by_trial=tuple(0.0 * left for left in fit.by_trial))
 
 
 def intervals_of(problem, fit, change):
@@ -43,6 +44,15 @@ def test_a_mean_is_known_to_the_noise_over_the_root_of_the_samples(bias):
     assert half_width(found) == pytest.approx(INTERVAL_Z * TIP / math.sqrt(SAMPLES), rel=1e-6)
     assert found.low < 2.0 < found.high
     assert found.unit == "deg"
+
+
+def test_a_fit_that_has_not_come_to_its_minimum_is_uncertain_by_its_next_step(bias):
+    problem, fit = bias
+    ahead = 0.1
+    short = replace(fit, by_trial=tuple(-(j @ np.array([ahead])) for j in fit.jacobian))
+    assert short.next_step == pytest.approx([ahead])
+    widened = covariance(problem, short, unchanged())[0, 0] - covariance(problem, fit, unchanged())[0, 0]
+    assert widened == pytest.approx(ahead**2, rel=1e-6)
 
 
 def test_numerical_error_of_the_replay_widens_the_interval(bias):

@@ -1,8 +1,9 @@
-"""How far parameters of an incomplete model are known: by how much parts of the log disagree on them.
+"""How far parameters are known: by the noise, or, if that is more, by how much parts of a log disagree.
 
-What a model lacks is no noise: it may pull a parameter up in one part of a log and down in another. Each
-part b, a quarter of a trial, pulls by g_b = J_b' r_b, and by what the g_b scatter about their mean, of B
-parts in all, the parameters are uncertain by
+What a model lacks is no noise, and noise may be slower than its estimate says: either pulls a parameter
+up in one part of a log and down in another. Each part b, a quarter of a trial or less, pulls by
+g_b = J_b' r_b, and by what the g_b scatter about their mean, of B parts in all, the parameters are
+uncertain by
 
     C = H^-1 (B / (B - 1) sum over b of g_b g_b') H^-1,    H = J' J + prior
 
@@ -12,6 +13,7 @@ degrees of freedom an interval is wider by t / z. What pulls in the same way eve
 such intervals hold for the model as it is.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -26,16 +28,17 @@ from diagnosis.fitting.problem import FitProblem
 Array = NDArray[np.float64]
 
 PARTS_OF_A_TRIAL = 4
+PARTS = 16  # of a log, at least: of fewer the scatter says little
 
 
-def covariance_of_incomplete(problem: FitProblem, fit: Fit, inverse: Array, left: float) -> Array:
-    """Covariance of the vector of a fit that leaves more than noise, (n, n), in the units of the fit.
+def covariance_by_parts(problem: FitProblem, fit: Fit, inverse: Array, left: float) -> Array:
+    """Covariance of the vector of a fit, (n, n), in the units of the fit.
 
     Parameters are correlated as in the model, each with the larger of two variances.
 
     Args:
       inverse: of the information of the fit, (n, n).
-      left: factor by which the residual exceeds the noise.
+      left: factor by which the residual exceeds the noise, of an incomplete model.
     """
     plain = left**2 * inverse
     own = np.diag(inverse @ _scatter_of(_pulls(problem, fit)) @ inverse)
@@ -48,21 +51,22 @@ def _pulls(problem: FitProblem, fit: Fit) -> Array:
     """g of each part, (B, n)."""
     left = by_trial_and_sensor(problem, fit.by_trial)
     slopes = by_trial_and_sensor(problem, fit.jacobian)
-    trials = zip(left, slopes, strict=True)
+    read = [(one, other) for one, other in zip(left, slopes, strict=True) if one]
+    parts = max(PARTS_OF_A_TRIAL, math.ceil(PARTS / max(len(read), 1)))
     return np.concatenate(
-        [_pulls_of_trial([r for _, _, r in a], [j for _, _, j in b]) for a, b in trials if a]
+        [_pulls_of_trial([r for _, _, r in a], [j for _, _, j in b], parts) for a, b in read]
     )
 
 
-def _pulls_of_trial(left: Sequence[Array], slopes: Sequence[Array]) -> Array:
+def _pulls_of_trial(left: Sequence[Array], slopes: Sequence[Array], parts: int) -> Array:
     """g of the parts of a trial, all sensors together, (parts, n)."""
     each = zip(left, slopes, strict=True)
-    return np.asarray(sum(np.array([j.T @ r for r, j in _parts(*own)]) for own in each))
+    return np.asarray(sum(_pulls_of_sensor(*own, parts) for own in each))
 
 
-def _parts(left: Array, slopes: Array) -> list[tuple[Array, Array]]:
-    cut = (np.array_split(rows, PARTS_OF_A_TRIAL) for rows in (left, slopes))
-    return list(zip(*cut, strict=True))
+def _pulls_of_sensor(left: Array, slopes: Array, parts: int) -> Array:
+    cut = (np.array_split(rows, parts) for rows in (left, slopes))
+    return np.array([j.T @ r for r, j in zip(*cut, strict=True)])
 
 
 def _scatter_of(pulls: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Covariance of an incomplete model, against closed forms and by repetition."""
+"""How far parameters are known where parts of a log disagree, against closed forms and by repetition."""
 
 from dataclasses import replace
 
@@ -7,19 +7,19 @@ import pytest
 from diagnosis_fixtures import fit_of, log_of, problem_of
 from scipy.stats import binom, t
 
-from diagnosis.assessment.uncertainty.incomplete_model import (
-    PARTS_OF_A_TRIAL,
-    covariance_of_incomplete,
+from diagnosis.assessment.uncertainty.scatter_of_parts import (
+    PARTS,
+    covariance_by_parts,
 )
 from diagnosis.criteria.assessment import INTERVAL_Z
 from diagnosis.replay.rig_parameters import NOMINAL
 
-PARTS, DRAWS = 2 * PARTS_OF_A_TRIAL, 400
+DRAWS = 400
 
 
 @pytest.fixture(scope="module")
 def problem():
-    """Two trials, of which only the torque is read, 50 samples in each part."""
+    """Two trials, of which only the torque is read, in 16 parts of 25 samples."""
     problem = replace(problem_of(log_of(NOMINAL, seconds=2.0)), nuisance=())
     (trial,) = problem.log.trials
     torque = {"base_torque_n_mm": trial.readings["base_torque_n_mm"]}
@@ -33,21 +33,24 @@ def covariance_where(problem, levels, noise=0.0, left=2.0):
     rng = np.random.default_rng(3)
     values = [
         np.concatenate(
-            [np.full(len(p), a) for p, a in zip(np.array_split(np.arange(n), 4), own, strict=True)]
+            [
+                np.full(len(p), a)
+                for p, a in zip(np.array_split(np.arange(n), PARTS // 2), own, strict=True)
+            ]
         )
         + noise * rng.normal(size=n)
-        for n, own in zip(rows, np.reshape(levels, (2, 4)), strict=True)
+        for n, own in zip(rows, np.reshape(levels, (2, PARTS // 2)), strict=True)
     ]
     mean = float(np.mean(np.concatenate(values)))
     slopes = [np.ones((n, 1)) for n in rows]
     fit = fit_of(("torque_bias",), by_trial=[v - mean for v in values], jacobian=slopes)
     inverse = np.array([[1.0 / sum(rows)]])
-    return covariance_of_incomplete(problem, fit, inverse, left)[0, 0], mean, sum(rows)
+    return covariance_by_parts(problem, fit, inverse, left)[0, 0], mean, sum(rows)
 
 
 def test_parts_that_disagree_tell_how_far_a_mean_is_known(problem):
     level = 3.0
-    found, mean, _ = covariance_where(problem, [level, -level] * 4)
+    found, mean, _ = covariance_where(problem, [level, -level] * (PARTS // 2))
     assert mean == pytest.approx(0.0, abs=1e-12)
     wider = t.ppf(0.975, PARTS - 1) / INTERVAL_Z
     # The variance of the mean of B levels, each +-level, from their scatter.
@@ -55,7 +58,7 @@ def test_parts_that_disagree_tell_how_far_a_mean_is_known(problem):
 
 
 def test_a_residual_that_is_white_is_taken_for_noise_of_its_size(problem):
-    found, _, count = covariance_where(problem, [0.0] * 8, noise=1.0, left=2.0)
+    found, _, count = covariance_where(problem, [0.0] * PARTS, noise=1.0, left=2.0)
     assert found == pytest.approx(2.0**2 / count)
 
 
@@ -75,7 +78,7 @@ def test_parameters_stay_correlated_as_in_the_model(problem):
     slopes = [rng.normal(size=(n, 2)) + 1.0 for n in rows]
     fit = fit_of(("torque_bias", "tip_drag"), by_trial=[10 * np.ones(n) for n in rows], jacobian=slopes)
     inverse = np.linalg.inv(sum(s.T @ s for s in slopes))
-    found = covariance_of_incomplete(problem, fit, inverse, 1.0)
+    found = covariance_by_parts(problem, fit, inverse, 1.0)
     scale = np.sqrt(np.diag(found) / np.diag(inverse))
     assert found == pytest.approx(inverse * np.outer(scale, scale))
     assert np.all(scale >= 1.0)
