@@ -85,6 +85,7 @@ STAGES = {
     "simpler effects": _whole("fitting simpler effects in the best", 1.0, 0, 0),
     "plainer sets": _whole("fitting plainer sets that leave hardly more", 1.0, 0, 1),
     "noise of the best": _whole("fitting with the noise that the best leaves", 1.0, 0, 0),
+    "lost counts": _whole("looking for counts that the encoder has lost", 0.02, 0, 40),
     "tissue that goes along": _whole("fitting with tissue that the shaft drags along", 1.0, 0, 0),
     "starts of trials": _whole("fitting what wound trials up before they began", 1.0, 0, 0),
     "clocks before trials": _whole("fitting clocks that ran before the trials", 1.0, 0, 0),
@@ -102,7 +103,6 @@ STAGES = {
         "fitting without outliers, with another imperfection", 1.0, 0, 0
     ),
     "drift or offset": _whole("comparing drifts and offsets of a sensor", 1.0, 0, 0),
-    "lost counts": _whole("looking for counts that the encoder has lost", 0.02, 0, 40),
     ALIKE: _coarse("looking for equivalent explanations", 0.03, 24, 24),
     CHECKING: _coarse("checking on held-out trials", 0.0, 1, 1),
     "other forms of a law": _whole("comparing with other forms of a law", 1.0, 0, 0),

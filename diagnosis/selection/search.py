@@ -68,7 +68,7 @@ from diagnosis.selection.stages.triples import three_effects
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
-STAGES: tuple[Stage, ...] = (
+OF_EFFECTS: tuple[Stage, ...] = (
     nominal_rig,
     stiffness_or_damping_alone,
     single_effects,
@@ -97,6 +97,9 @@ STAGES: tuple[Stage, ...] = (
     scatter_of_the_best,
     flicker_noise_that_shows,
     finer_mesh,
+)
+"""Which effects explain the log."""
+OF_THE_RECORDING: tuple[Stage, ...] = (
     tissue_that_goes_along,
     starts_of_trials,
     clocks_before_trials,
@@ -126,6 +129,8 @@ STAGES: tuple[Stage, ...] = (
     best_without_each_effect,
     plainer_sets,
 )
+"""What else a recording may have, where none does; and what is asked of any explanation."""
+STAGES = (*OF_EFFECTS, *OF_THE_RECORDING)
 
 
 def search(state: SearchState, workers: Workers) -> SearchState:

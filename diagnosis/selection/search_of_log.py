@@ -1,7 +1,9 @@
 """The search of a log, and once more where its encoder has lost counts that only an explanation shows.
 
 An effect that is missing hides what lost counts do to the readings from the nominal rig; beside what the
-search has found it shows. What is restored so counts only where it brings an explanation to the noise.
+search has found it shows: once the effects are tried, before anything else that a recording may have,
+which takes long, and at the end, if that led elsewhere. What is restored so counts only where it brings
+an explanation to the noise.
 """
 
 from dataclasses import replace
@@ -17,8 +19,9 @@ from diagnosis.prepare.motion.base_jumps import small_jumps
 from diagnosis.selection.jumps_beside import STAGE, jumps_beside, shifted_back
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.scoring.drift_evidence import in_noise, wide_drifts
-from diagnosis.selection.search import search
+from diagnosis.selection.search import OF_EFFECTS, OF_THE_RECORDING, search
 from diagnosis.selection.stages.sensors.sensor_drift import promises
+from diagnosis.selection.stages.stage import run_stages
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
@@ -37,33 +40,47 @@ def search_log(
     Raises:
       SimulationFailed: the nominal rig cannot be simulated on the log as it was read.
     """
-    found, explained = _searched(nominal, effects, workers).rechecked()
-    if explained or workers.stop.left_out:
+    begun = run_stages(OF_EFFECTS, _start(nominal, effects), workers)
+    begun, anew = _beside_counts(log, begun, effects, workers)
+    if anew:
+        return anew
+    found = run_stages(OF_THE_RECORDING, begun, workers)
+    if found.best is begun.best:
         return nominal, found
-    restored = _restored(log, found, workers)
-    if restored is log:
-        return nominal, found
-    try:
-        anew = replay_nominal(restored)
-        again, explained = _searched(anew, effects, workers).rechecked()
-    except SimulationFailed as failed:
-        return nominal, found.noting(noted(STAGE, Decision.FAILED, str(failed)))
-    if not explained:
-        entry = noted(STAGE, Decision.DROPPED, "no explanation reaches the noise with them restored")
-        return nominal, found.noting(entry)
-    entry = noted(STAGE, Decision.KEPT, "beside an explanation the encoder of the base has lost counts")
-    return anew, again.noting(entry)
+    found, anew = _beside_counts(log, found, effects, workers)
+    return anew or (nominal, found)
 
 
-def _searched(nominal: NominalReplay, effects: tuple[str, ...], workers: Workers) -> SearchState:
+def _start(nominal: NominalReplay, effects: tuple[str, ...]) -> SearchState:
     problem = nominal.problem
-    start = SearchState(
+    return SearchState(
         problem=problem,
         coarse=decimated(problem, nominal.predictions, nominal.rig),
         effects=effects,
         nominal=nominal.fit,
     )
-    return search(start, workers)
+
+
+def _beside_counts(
+    log: RigLog, found: SearchState, effects: tuple[str, ...], workers: Workers
+) -> tuple[SearchState, tuple[NominalReplay, SearchState] | None]:
+    """The state, noted; and another nominal replay and search, if lost counts are what it lacks."""
+    found, explained = found.rechecked()
+    if explained or workers.stop.left_out:
+        return found, None
+    restored = _restored(log, found, workers)
+    if restored is log:
+        return found, None
+    try:
+        anew = replay_nominal(restored)
+        again, explained = search(_start(anew, effects), workers).rechecked()
+    except SimulationFailed as failed:
+        return found.noting(noted(STAGE, Decision.FAILED, str(failed))), None
+    if not explained:
+        why_not = "no explanation reaches the noise with them restored"
+        return found.noting(noted(STAGE, Decision.DROPPED, why_not)), None
+    entry = noted(STAGE, Decision.KEPT, "beside an explanation the encoder of the base has lost counts")
+    return found, (anew, again.noting(entry))
 
 
 def _restored(log: RigLog, found: SearchState, workers: Workers) -> RigLog:

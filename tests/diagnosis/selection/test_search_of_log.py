@@ -42,6 +42,22 @@ def test_counts_that_an_effect_hides_from_the_nominal_rig_are_restored():
     assert "trial_02.csv" in warning
 
 
+def test_lost_counts_are_looked_for_before_what_takes_long(monkeypatch):
+    """And not after it, where that led nowhere."""
+    log = read(LOST_DEG)
+    nominal = replay_nominal(log)
+    monkeypatch.setattr(module, "OF_THE_RECORDING", (pytest.fail,))
+    _, found = search_log(log, nominal, NAMES, Workers())
+    assert found.best.names == NAMES
+    asked = []
+    monkeypatch.setattr(module, "_restored", lambda *_: asked.append(1) or log)
+    for elsewhere in (False, True):
+        other = [lambda state, _: replace(state, candidates=(replace(state.best),))] * elsewhere
+        monkeypatch.setattr(module, "OF_THE_RECORDING", tuple(other))
+        search_log(log, nominal, NAMES, Workers())
+    assert len(asked) == 3
+
+
 def test_counts_that_a_drift_of_the_torque_hides_are_restored():
     """Beside what the drift leaves they are little: one in each direction, so that it is no offset."""
     log = read(LOST_DEG)
@@ -68,8 +84,8 @@ def test_what_explains_nothing_is_not_restored(monkeypatch):
 def test_the_log_is_searched_again_where_jumps_take_off_enough(share, searches, monkeypatch):
     log = read(LOST_DEG)
     before = replay_nominal(log)
-    made, searched = [], module._searched
-    monkeypatch.setattr(module, "_searched", lambda *given: made.append(1) or searched(*given))
+    made, start = [], module._start
+    monkeypatch.setattr(module, "_start", lambda *given: made.append(1) or start(*given))
 
     def beside(fit, _):
         return small_jumps(log)[:1], share * (fit.cost - fit.prior - fit.samples)
