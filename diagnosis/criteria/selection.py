@@ -101,11 +101,10 @@ DRIFT_QUICKEST_SIGMA = 6.0
 Measured: 0.5 to 2.3 in
 29 trials of seven rough logs whose torque drifts, of 1.3 to 7.5 in all; 12.5 where a drift stood in for
 friction that grows at rest, of 15 in all."""
-DRIFT_ALIKE_SIGMA = 8.0
-"""The same where the drift is a line of one rate in all trials: that is a law. A choice, above a
-rough log whose torque drifts by 7.3 sigma in every trial. Zeros of a torque that are further apart, and
-than it drifts by within trials, are no drift where nothing else is missing: 13 sigma beside 4 in a log
-whose cell feels the axial force."""
+DRIFT_ALIKE_SIGMA = 6.0
+"""The same where the drift is a line of one rate in all trials: that is a law. Zeros of a torque that
+are further apart, and than it drifts by within trials, are no drift where nothing else is missing: 13
+sigma beside 4 in a log whose cell feels the axial force."""
 DRIFT_ONE_COURSE_SIGMA = 5.0
 """The same where it is another course that is the same in all trials, which is a law even more. Set
 between two logs: of a base that turns by 9 sigma in each trial, and of a torque sensor that warms up by
